@@ -79,10 +79,12 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
                      "must be at least " + std::to_string(1.2 * slowest / kTopSpeedShare) +
                          " rad/s: below, the motor sticks and slips");
   std::vector<Stroke> strokes;
+  if (config.part == ExcitationPart::kRamps) return strokes;
   const double middle = 0.5 * (low + high);
   // Slowly and gently first: the inertia that this shows is needed to turn round in time.
   for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
-  for (int i = 0; i < kSpeeds; ++i) {
+  const int speeds = config.part == ExcitationPart::kShakenStrokes ? 0 : kSpeeds;
+  for (int i = 0; i < speeds; ++i) {
     const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kSpeeds - 1));
     const double ramps = speed * speed / limits.acceleration_rad_s2;
     const double way =
@@ -91,7 +93,8 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
     strokes.push_back({middle + 0.5 * way, speed, false});
     strokes.push_back({middle - 0.5 * way, speed, false});
   }
-  for (int i = 0; i < kShakenStrokes; ++i)
+  const int shaken = config.part == ExcitationPart::kSteadyStrokes ? 0 : kShakenStrokes;
+  for (int i = 0; i < shaken; ++i)
     strokes.push_back({i % 2 == 0 ? high : low, shaken_speed_rad_s(config, high - low), true});
   return strokes;
 }
@@ -105,7 +108,9 @@ Excitation::Excitation(const ExcitationConfig& config)
       trace_{config.period_s, config.encoder_resolution_rad, {}},
       inertia_kgm2_(2.0 * config.motor_inertia_kgm2),
       sines_(config.period_s),
-      shake_rms_Nm_(kFirstShake_rad_s2 * inertia_kgm2_) {}
+      shake_rms_Nm_(kFirstShake_rad_s2 * inertia_kgm2_) {
+  trace_.samples.reserve(static_cast<std::size_t>(config.longest_s / config.period_s));
+}
 
 void Excitation::abort(const std::string& why) {
   if (stage_ == Stage::kDone || stage_ == Stage::kBraking) return;
@@ -140,7 +145,9 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
 double Excitation::torque_Nm(double position_rad, double speed_rad_s) {
   switch (stage_) {
     case Stage::kEnabling:
-      stage_ = Stage::kBreakingAway;
+      stage_ = config_.part == ExcitationPart::kAll || config_.part == ExcitationPart::kRamps
+                   ? Stage::kBreakingAway
+                   : Stage::kStroking;
       stage_periods_ = 0;
       return 0.0;
     case Stage::kBreakingAway:
@@ -182,7 +189,7 @@ double Excitation::ramp_Nm(double position_rad) {
   ++done_;
   stage_periods_ = 0;
   if (done_ == kRamps) {
-    stage_ = Stage::kStroking;
+    stage_ = strokes_.empty() ? Stage::kBraking : Stage::kStroking;
     done_ = 0;
   }
   return 0.0;
@@ -271,6 +278,10 @@ void Excitation::adapt_shaking() {
 }
 
 void Excitation::record(const ActuatorReading& reading, double torque_Nm) {
+  if (trace_.samples.size() == trace_.samples.capacity())
+    return abort(fmt::format(
+        "it took more than the {:.0f} s allowed: give a larger speed_limit_rad_s or a smaller range",
+        config_.longest_s));
   JointSample sample;
   sample.motor_position_rad = reading.joint_position_rad;
   if (reading.has_link_position) sample.link_position_rad = reading.link_position_rad;

@@ -16,13 +16,23 @@
 
 namespace strainwave {
 
+/// What of the motion is made.
+enum class ExcitationPart {
+  kAll,
+  kRamps,          ///< torque of breaking away
+  kSteadyStrokes,  ///< friction
+  kShakenStrokes,  ///< inertias and spring
+};
+
 struct ExcitationConfig {
+  ExcitationPart part = ExcitationPart::kAll;
   ExcitationLimits limits;
   double period_s = 0.001;
   double encoder_resolution_rad = 0.0;
   double gear_ratio = 0.0;
   double motor_inertia_kgm2 = 0.0;  ///< within a factor of three
   double start_rad = 0.0;           ///< where the joint rests without torque; it comes back to it
+  double longest_s = 180.0;         ///< it ends then; room for the trace is taken before
 };
 
 /// A stretch at one speed.
@@ -32,7 +42,7 @@ struct Stroke {
   bool shaken = false;       ///< with the sum of sines
 };
 
-/// Strokes of a range: steady speeds there and back, slow ones first, then shaken ones. Throws InputError where the range or the speed
+/// Strokes of a range and part: steady speeds there and back, slow ones first, then shaken ones. Throws InputError where the range or the speed
 /// limit is too small for them, naming what is wanted.
 std::vector<Stroke> plan_strokes(const ExcitationConfig& config);
 
@@ -43,7 +53,7 @@ class Excitation {
   /// Throws InputError.
   explicit Excitation(const ExcitationConfig& config);
 
-  /// One period.
+  /// One period. It allocates nothing unless it ends early.
   ActuatorCommand step(const ActuatorReading& reading);
 
   bool ended() const { return stage_ == Stage::kDone; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commission/sine_sum.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,11 +11,12 @@ namespace strainwave {
 namespace {
 
 constexpr double kBase_Hz = 1.5;
-constexpr std::size_t kSines = 28;
 constexpr double kLowest_Hz = 3.0;
 constexpr double kHighest_Hz = 180.0;
 
-std::array<double, kSines> frequencies_Hz() {
+}  // namespace
+
+std::array<double, SineSum::kSines> SineSum::frequencies_Hz() {
   std::array<double, kSines> all{};
   double last = 0.0;
   for (std::size_t i = 0; i < kSines; ++i) {
@@ -26,8 +26,6 @@ std::array<double, kSines> frequencies_Hz() {
   }
   return all;
 }
-
-}  // namespace
 
 double SineSum::step() {
   static const std::array<double, kSines> frequencies = frequencies_Hz();

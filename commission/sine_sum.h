@@ -7,6 +7,7 @@
 // the catalogue with up to three times its inertia. Phases after Schroeder (IEEE Trans. Inf. Theory 16, 1970) keep the peak low.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <optional>
 
@@ -14,6 +15,9 @@ namespace strainwave {
 
 class SineSum {
  public:
+  static constexpr std::size_t kSines = 28;
+  static std::array<double, kSines> frequencies_Hz();
+
   explicit SineSum(double period_s) : period_s_(period_s) {}
 
   /// Of the next period.

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/commissioning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "commission/response.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::array<const char*, 6> kNames{"identity", "direction", "breakaway",
+                                            "friction", "motion",    "comparison"};
+
+std::string name_of(Commissioning::Step step) {
+  return kNames.at(static_cast<std::size_t>(step));
+}
+
+ExcitationPart part_of(Commissioning::Step step) {
+  switch (step) {
+    case Commissioning::Step::kFriction:
+      return ExcitationPart::kSteadyStrokes;
+    case Commissioning::Step::kMotion:
+      return ExcitationPart::kShakenStrokes;
+    default:
+      return ExcitationPart::kRamps;
+  }
+}
+
+std::string text_of(const IntervalEstimate& estimate) {
+  return fmt::format("{:.4g} +-{:.2g}", estimate.value, estimate.half_width_95);
+}
+
+/// "load_inertia_kgm2 0.1 configured, 0.102 +-0.001 measured, 0.102 used".
+std::string text_of(const CommissionValue& value) {
+  const std::string configured =
+      value.configured ? fmt::format("{:.4g} configured, ", *value.configured) : "";
+  return fmt::format("{} {}{} {} measured, {:.4g} used", value.key, configured, text_of(value.measured),
+                     value.unit, value.used);
+}
+
+}  // namespace
+
+Commissioning::Commissioning(const CommissioningConfig& config, std::optional<CommissionRecord> before)
+    : config_(config) {
+  (void)plan_strokes(config.excitation);
+  if (before && before->joint == config.joint && before->configuration == config.configuration)
+    record_ = std::move(*before);
+  std::erase_if(record_.steps, [](const CommissionStep& step) { return step.outcome != StepOutcome::kDone; });
+  record_.joint = config.joint;
+  record_.configuration = config.configuration;
+  record_.simulated = config.simulated;
+  record_.problem.clear();
+}
+
+bool Commissioning::done(const std::string& name) const {
+  return std::any_of(record_.steps.begin(), record_.steps.end(),
+                     [&](const CommissionStep& step) { return step.name == name; });
+}
+
+std::optional<std::string> Commissioning::begin() {
+  if (begun_) step_ = static_cast<Step>(static_cast<int>(step_) + 1);
+  begun_ = true;
+  if (step_ == Step::kEnd || !record_.problem.empty()) return std::nullopt;
+  const bool pure = step_ == Step::kIdentity || step_ == Step::kComparison;
+  resumed_ = !pure && done(name_of(step_));
+  if (pure) std::erase_if(record_.steps, [&](const CommissionStep& s) { return s.name == name_of(step_); });
+  const bool seen = step_ == Step::kBreakaway && !ramps_.samples.empty();
+  if (!pure && !resumed_ && !seen) {
+    ExcitationConfig motion = config_.excitation;
+    motion.part = part_of(step_);
+    excitation_ = std::make_unique<Excitation>(motion);
+  }
+  return announcement();
+}
+
+std::string Commissioning::announcement() const {
+  const ExcitationLimits& limits = config_.excitation.limits;
+  const std::string inside =
+      fmt::format("{:.3f} to {:.3f} rad, at most {:.2f} rad/s and {:.1f} N.m", limits.position_min_rad,
+                  limits.position_max_rad, limits.speed_rad_s, limits.torque_Nm);
+  if (resumed_) return name_of(step_) + ": done before, not run again";
+  switch (step_) {
+    case Step::kIdentity:
+      return "identity: compares, moves nothing";
+    case Step::kDirection:
+      return "direction: ramps of torque until the joint moves, inside " + inside;
+    case Step::kBreakaway:
+      return excitation_ == nullptr ? std::string("breakaway: by the same ramps")
+                                    : "breakaway: ramps of torque until the joint moves, inside " + inside;
+    case Step::kFriction:
+      return "friction: strokes at steady speeds, inside " + inside;
+    case Step::kMotion:
+      return "motion: strokes with a shaken torque, inside " + inside;
+    default:
+      return "comparison: of what is configured with what is measured";
+  }
+}
+
+ActuatorCommand Commissioning::step(const ActuatorReading& reading) {
+  return excitation_ == nullptr ? ActuatorCommand{} : excitation_->step(reading);
+}
+
+void Commissioning::abort(const std::string& why) {
+  if (excitation_ != nullptr) excitation_->abort(why);
+  if (excitation_ == nullptr || excitation_->ended()) record_.problem = why;
+}
+
+std::string Commissioning::finish() {
+  if (resumed_) {
+    for (const CommissionStep& step : record_.steps)
+      if (step.name == name_of(step_)) return step.name + ": " + step.text;
+  }
+  double time_s = 0.0;
+  std::string failure = record_.problem;
+  if (excitation_ != nullptr) {
+    const JointTrace& trace = excitation_->trace();
+    time_s = trace.time_s(trace.samples.size());
+    record_.joint_time_s += time_s;
+    for (const JointSample& sample : trace.samples)
+      if (std::isfinite(sample.temperature_C)) record_.temperature_C = sample.temperature_C;
+    JointTrace& kept = part_of(step_) == ExcitationPart::kRamps ? ramps_ : strokes_;
+    if (kept.samples.empty())
+      kept = trace;
+    else  // the joint rests where the two meet
+      kept.samples.insert(kept.samples.end(), trace.samples.begin(), trace.samples.end());
+    if (failure.empty()) failure = excitation_->problem();
+    excitation_.reset();
+  }
+  // What an aborted step has seen is evaluated all the same, but for the fit.
+  std::string text;
+  if (failure.empty() || step_ == Step::kBreakaway || step_ == Step::kFriction) text = evaluate();
+  if (!failure.empty()) {
+    if (step_ == Step::kDirection && failure.find("the other way") != std::string::npos)
+      failure = config_.direction_key + " is wrong: " + failure;
+    record_.problem = failure;
+  }
+  const bool good = record_.problem.empty();
+  record_.steps.push_back({name_of(step_), good ? StepOutcome::kDone : StepOutcome::kFailed,
+                           good ? text : record_.problem, time_s});
+  if (!good)
+    for (int later = static_cast<int>(step_) + 1; later < static_cast<int>(Step::kEnd); ++later)
+      if (!done(name_of(static_cast<Step>(later))))
+        record_.steps.push_back({name_of(static_cast<Step>(later)), StepOutcome::kSkipped,
+                                 "not run, since " + name_of(step_) + " failed", 0.0});
+  return name_of(step_) + (good ? ": " + text : ": failed: " + record_.problem);
+}
+
+std::string Commissioning::evaluate() {
+  switch (step_) {
+    case Step::kIdentity:
+      return config_.identity;
+    case Step::kDirection:
+      return find_which_way();
+    case Step::kBreakaway:
+      return find_torque_of_breaking_away();
+    case Step::kFriction:
+      return find_friction_over_speed();
+    case Step::kMotion:
+      return find_motion();
+    case Step::kComparison:
+      return compare();
+    case Step::kEnd:
+      break;
+  }
+  return "";
+}
+
+std::string Commissioning::find_which_way() {
+  const std::optional<int> direction = find_direction(ramps_);
+  if (!direction)
+    record_.problem = "the motion is too small to show which way the torque acts: is a brake shut?";
+  else if (*direction < 0)
+    record_.problem =
+        config_.direction_key + " is wrong: positive torque moves the joint to smaller positions";
+  return "positive torque moves the joint to larger positions";
+}
+
+std::string Commissioning::find_torque_of_breaking_away() {
+  const auto both = find_breakaway(ramps_, config_.told.gear_ratio);
+  record_.breakaway_positive_Nm = both[0];
+  record_.breakaway_negative_Nm = both[1];
+  if (!both[0] || !both[1]) {
+    record_.problem = "the joint did not break away both ways: is something in its way?";
+    return "";
+  }
+  return fmt::format("{} N.m measured to larger positions, {} N.m to smaller ones", text_of(*both[0]),
+                     text_of(*both[1]));
+}
+
+std::string Commissioning::find_friction_over_speed() {
+  record_.friction = find_friction(strokes_, {config_.told.gear_ratio, 0.0});
+  if (record_.friction.empty()) {
+    record_.problem =
+        "no stretch of steady speed was long enough: give a larger range between the position limits";
+    return "";
+  }
+  std::string text = "measured";
+  for (const FrictionAtSpeed& point : record_.friction)
+    text += fmt::format("{} {} N.m at {:.3f} rad/s", text == "measured" ? "" : ",", text_of(point.torque_Nm),
+                        point.speed_rad_s);
+  return text;
+}
+
+std::string Commissioning::find_motion() {
+  const std::optional<MotionEstimates> found = fit_motion(strokes_, config_.told);
+  if (!found) {
+    record_.problem =
+        "the motion was too even to show the inertia: give a larger range, speed or torque limit";
+    return "";
+  }
+  record_.values = compare_with(config_.configured, *found);
+  record_.response = measure_response(strokes_, config_.told.gear_ratio);
+  record_.kinematic_error_rad = {found->kinematic_error_rad[0].value, found->kinematic_error_rad[1].value};
+  record_.model.reset();
+  if (found->motor_inertia_kgm2 && found->link_inertia_kgm2 && found->stiffness_1_Nm_rad)
+    record_.model = {found->motor_inertia_kgm2->value, found->link_inertia_kgm2->value,
+                     found->stiffness_1_Nm_rad->value,
+                     found->damping_Nms_rad ? found->damping_Nms_rad->value : 0.0,
+                     found->delay_s.value + 0.5 * strokes_.period_s};
+  // Again, without the torque that changed the speed, where the steady strokes are of this run.
+  if (const std::vector<FrictionAtSpeed> friction =
+          find_friction(strokes_, {config_.told.gear_ratio, found->total_inertia_kgm2.value});
+      friction.size() >= record_.friction.size())
+    record_.friction = friction;
+  std::string text;
+  for (const CommissionValue& value : record_.values) text += (text.empty() ? "" : "; ") + text_of(value);
+  return text;
+}
+
+std::string Commissioning::compare() {
+  record_.problem = find_wrong(record_.values, config_.told.gear_ratio);
+  return "no configured number differs by 30 % from what is measured";
+}
+
+}  // namespace strainwave

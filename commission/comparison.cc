@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "control/joint/torsion_spring.h"
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kMostFactor = 1.3;
+// Factors of several numbers that one cause explains agree to this.
+constexpr double kSameFactor = 1.15;
+// A delay is configured in whole periods.
+constexpr double kDelayTolerance_periods = 0.75;
+constexpr double kZeroTolerance_rad = 0.3;
+
+constexpr const char* kMotorKey = "motor_inertia_kgm2";
+constexpr const char* kLoadKey = "load_inertia_kgm2";
+constexpr const char* kStiffnessKey = "stiffness_Nm_rad";
+constexpr const char* kZeroKey = "control.gravity_zero_rad";
+constexpr const char* kPeriods = "periods";
+// Of what has no key.
+constexpr const char* kTotal = "inertia of motor and load";
+constexpr const char* kResonance = "resonance";
+
+bool same(double a, double b) {
+  return std::max(a / b, b / a) < kSameFactor;
+}
+
+/// What is configured over what is measured; 0: one of them is missing.
+double factor_of(const std::vector<CommissionValue>& values, const char* key) {
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [key](const CommissionValue& value) { return value.key == key; });
+  return found == values.end() ? 0.0 : found->configured.value_or(0.0) / found->measured.value;
+}
+
+/// The factor by which a wrong scale of torque or position explains all: link and spring agree, and so does the motor, or it fits as
+/// it is, since its inertia at the joint was computed with the same ratio.
+std::optional<double> wrong_scale(const std::vector<CommissionValue>& values) {
+  const double link = factor_of(values, kLoadKey);
+  const double spring = factor_of(values, kStiffnessKey);
+  const double motor = factor_of(values, kMotorKey);
+  if (link <= 0.0 || spring <= 0.0 || motor <= 0.0 || !same(link, spring)) return std::nullopt;
+  const double factor = std::sqrt(link * spring);
+  if (std::max(factor, 1.0 / factor) < kMostFactor) return std::nullopt;
+  if (!same(motor, factor) && !same(motor, 1.0)) return std::nullopt;
+  return factor;
+}
+
+}  // namespace
+
+std::vector<CommissionValue> compare_with(const ConfiguredNumbers& configured,
+                                          const MotionEstimates& motion) {
+  std::vector<CommissionValue> values;
+  const auto add = [&](std::string key, const char* unit, const std::optional<double>& told,
+                       const std::optional<IntervalEstimate>& found) {
+    if (found) values.push_back({std::move(key), unit, told, *found, found->value});
+  };
+  add(kMotorKey, "kg.m2", configured.motor_inertia_kgm2, motion.motor_inertia_kgm2);
+  add(kLoadKey, "kg.m2", configured.load_inertia_kgm2, motion.link_inertia_kgm2);
+  add(kStiffnessKey, "N.m/rad", configured.stiffness_1_Nm_rad, motion.stiffness_1_Nm_rad);
+  add("damping_Nms_rad", "N.m.s/rad", configured.damping_Nms_rad, motion.damping_Nms_rad);
+  const double period_s = configured.period_s;
+  add(configured.delay_key, kPeriods, configured.delay_periods,
+      IntervalEstimate{motion.delay_s.value / period_s, motion.delay_s.half_width_95 / period_s});
+  values.back().used = std::round(values.back().measured.value);
+  const IntervalEstimate& gravity = motion.gravity_Nm;
+  if (gravity.half_width_95 < 0.5 * gravity.value) {
+    const std::optional<GravityLoad>& told = configured.gravity;
+    add("control.gravity_Nm", "N.m", told ? std::optional(told->torque_Nm) : std::nullopt, gravity);
+    add(kZeroKey, "rad", told ? std::optional(told->zero_rad) : std::nullopt,
+        IntervalEstimate{motion.gravity_zero_rad, gravity.half_width_95 / gravity.value});
+  }
+  std::optional<double> told_resonance_Hz;
+  if (configured.motor_inertia_kgm2 && configured.load_inertia_kgm2 && configured.stiffness_1_Nm_rad)
+    told_resonance_Hz =
+        free_free_frequency_rad_s(*configured.motor_inertia_kgm2, *configured.load_inertia_kgm2,
+                                  *configured.stiffness_1_Nm_rad) /
+        kTurn_rad;
+  add(kTotal, "kg.m2",
+      configured.motor_inertia_kgm2 && configured.load_inertia_kgm2
+          ? std::optional(*configured.motor_inertia_kgm2 + *configured.load_inertia_kgm2)
+          : std::nullopt,
+      motion.total_inertia_kgm2);
+  add(kResonance, "Hz", told_resonance_Hz, motion.resonance_Hz);
+  return values;
+}
+
+bool differs(const CommissionValue& value) {
+  if (!value.configured) return false;
+  const double configured = *value.configured;
+  const IntervalEstimate& measured = value.measured;
+  const double off = std::abs(configured - measured.value);
+  if (value.unit == kPeriods) return off > kDelayTolerance_periods + measured.half_width_95;
+  if (value.key == kZeroKey)
+    return std::abs(std::remainder(off, kTurn_rad)) > kZeroTolerance_rad + measured.half_width_95;
+  return configured > kMostFactor * (measured.value + measured.half_width_95) ||
+         kMostFactor * configured < measured.value - measured.half_width_95;
+}
+
+std::string find_wrong(const std::vector<CommissionValue>& values, double gear_ratio) {
+  if (const std::optional<double> factor = wrong_scale(values))
+    return fmt::format(
+        "{} and {} are {:.2f} times what is measured, so one scale is wrong: gear_ratio = {:g} is configured "
+        "and {:.1f} fits, or the torque constant or the counts per revolution are {:.2f} times the right "
+        "ones",
+        kLoadKey, kStiffnessKey, *factor, gear_ratio, gear_ratio * std::sqrt(*factor), 1.0 / *factor);
+  // What follows from both inertias is said where one of them is not measured.
+  const bool both = factor_of(values, kMotorKey) > 0.0 && factor_of(values, kLoadKey) > 0.0;
+  std::string text;
+  for (const CommissionValue& value : values)
+    if (value.key != kResonance && (value.key != kTotal || !both) && differs(value))
+      text += fmt::format("{}{} = {:.4g} is wrong: {:.4g} +-{:.2g} {} is measured", text.empty() ? "" : "; ",
+                          value.key, *value.configured, value.measured.value, value.measured.half_width_95,
+                          value.unit);
+  return text;
+}
+
+}  // namespace strainwave
