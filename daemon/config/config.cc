@@ -158,7 +158,7 @@ DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use) {
   std::set<std::string> names;
   for (TomlSection& section : joints) {
     try {
-      config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
+      config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can, use));
       if (!names.insert(config.joints.back().name).second)
         section.fail("name", "each joint needs a name of its own");
     } catch (const InputError& error) {

@@ -51,6 +51,8 @@ struct JointConfig {
   std::variant<SimulatedDrive, GpioJointConfig, DriveOnBus> drive;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
   std::filesystem::path table;                ///< initial gain table; empty: none
+  bool motor_inertia_assumed = false;         ///< it is not in the file (ConfigUse::kCommission)
+  bool load_inertia_assumed = false;
   std::string
       table_place;  ///< where the file names it, for messages: "arm.toml:14: joint[0].table = "t.json""
 };
@@ -79,8 +81,9 @@ struct DaemonConfig {
 /// Who besides root and our own user may write what decides about `joint`: the configuration and its table.
 Writers writers_allowed(const JointConfig& joint);
 
-/// What a configuration is read for: only who runs it needs to know who may give orders.
-enum class ConfigUse : std::uint8_t { kRun, kCheckDrives };
+/// What a configuration is read for: only who runs it needs to know who may give orders. A joint with a gear that is to be commissioned
+/// may be without its inertias: the wave generator's is assumed, for motor and load each.
+enum class ConfigUse : std::uint8_t { kRun, kCheckDrives, kCommission };
 
 /// Reads `path`. Throws InputError with a line for each error, naming file, line, key, value and what is allowed: unreadable or
 /// malformed file, unknown, missing or repeated keys, impossible values, joints of the same name.

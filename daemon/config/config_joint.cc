@@ -110,12 +110,12 @@ std::string read_name(TomlSection& section, std::string_view key, std::string fa
 }
 
 JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
-                       CanConfig& can) {
+                       CanConfig& can, ConfigUse use) {
   JointConfig joint;
   joint.name = read_name(section, "name", "");
   joint.plant.joint_model = read_joint_model(section);
   joint.plant.gear_ratio = section.number("gear_ratio", {1e-3, 1e5});
-  read_model(section, joint.plant, joint.loop.controller);
+  read_model(section, use, joint);
   joint.plant.period_s = period_s;
   joint.loop.controller.period_s = period_s;
   if (section.has("table")) {

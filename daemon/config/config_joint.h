@@ -15,7 +15,7 @@ namespace strainwave {
 /// Reads the section and all below it; paths are relative to `folder`, and a drive on a bus is put on it
 /// in `can`. Throws InputError.
 JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
-                       CanConfig& can);
+                       CanConfig& can, ConfigUse use);
 
 /// What may be part of a channel's name. With an empty `fallback` the key is required. Throws InputError.
 std::string read_name(TomlSection& section, std::string_view key, std::string fallback);

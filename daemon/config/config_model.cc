@@ -35,8 +35,8 @@ void require_model(const TomlSection& joint) {
                  "(of motor and load together)");
 }
 
-// All that is missing, of which the first names the place.
-void require_flexible_keys(const TomlSection& joint) {
+// All that is missing, of which the first names the place. `assumed`: inertias may be.
+void require_flexible_keys(const TomlSection& joint, bool assumed) {
   const char* first = nullptr;
   std::string lines;
   const auto require = [&](const char* key, bool given, const char* line) {
@@ -45,8 +45,8 @@ void require_flexible_keys(const TomlSection& joint) {
     lines.append(lines.empty() ? "" : ", ").append(line);
   };
   require("gear", joint.has("gear") || joint.has("stiffness_Nm_rad"), kGearLine);
-  require("motor_inertia_kgm2", joint.has("motor_inertia_kgm2"), kMotorLine);
-  require("load_inertia_kgm2", joint.has("load_inertia_kgm2"), kLoadLine);
+  require("motor_inertia_kgm2", assumed || joint.has("motor_inertia_kgm2"), kMotorLine);
+  require("load_inertia_kgm2", assumed || joint.has("load_inertia_kgm2"), kLoadLine);
   if (first != nullptr) joint.fail(first, "model = \"flexible\" needs it; the missing lines are " + lines);
 }
 
@@ -84,16 +84,25 @@ TorsionSpring measured_spring(TomlSection& joint) {
   return {slopes[0], torques[0], slopes[1], torques[1], slopes[2]};
 }
 
-LinkModel read_flexible(TomlSection& joint, PlantIdentity& plant) {
+LinkModel read_flexible(TomlSection& joint, ConfigUse use, JointConfig& made) {
+  PlantIdentity& plant = made.plant;
   refuse_keys(joint, {"inertia_kgm2"},
               "it is allowed only with model = \"rigid\": a flexible joint has motor_inertia_kgm2 and "
               "load_inertia_kgm2, since a spring is between them");
-  require_flexible_keys(joint);
+  const bool assumed = use == ConfigUse::kCommission && joint.has("gear");
+  require_flexible_keys(joint, assumed);
+  made.motor_inertia_assumed = assumed && !joint.has("motor_inertia_kgm2");
+  made.load_inertia_assumed = assumed && !joint.has("load_inertia_kgm2");
   LinkModel link;
   link.spring = joint.has("gear") ? named_spring(joint, plant) : measured_spring(joint);
-  link.motor_inertia_kgm2 = joint.number("motor_inertia_kgm2", kPositive);
-  link.link_inertia_kgm2 = joint.number("load_inertia_kgm2", {link.motor_inertia_kgm2 / kLargestRatio,
-                                                              link.motor_inertia_kgm2 * kLargestRatio});
+  link.motor_inertia_kgm2 =
+      made.motor_inertia_assumed
+          ? find_gear(plant.gear.view())->wave_generator_inertia_kgm2 * plant.gear_ratio * plant.gear_ratio
+          : joint.number("motor_inertia_kgm2", kPositive);
+  link.link_inertia_kgm2 = made.load_inertia_assumed
+                               ? link.motor_inertia_kgm2
+                               : joint.number("load_inertia_kgm2", {link.motor_inertia_kgm2 / kLargestRatio,
+                                                                    link.motor_inertia_kgm2 * kLargestRatio});
   link.damping_Nms_rad =
       joint.number_or("damping_Nms_rad", 0.0,
                       {0.0, structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
@@ -113,12 +122,12 @@ void read_rigid(TomlSection& joint, PlantIdentity& plant) {
 
 }  // namespace
 
-void read_model(TomlSection& joint, PlantIdentity& plant, JointControllerConfig& controller) {
-  require_model(joint);
-  if (joint.choice("model", {"flexible", "rigid"}) == "flexible") {
-    controller.link = read_flexible(joint, plant);
+void read_model(TomlSection& section, ConfigUse use, JointConfig& joint) {
+  require_model(section);
+  if (section.choice("model", {"flexible", "rigid"}) == "flexible") {
+    joint.loop.controller.link = read_flexible(section, use, joint);
   } else {
-    read_rigid(joint, plant);
+    read_rigid(section, joint.plant);
   }
 }
 
