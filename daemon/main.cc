@@ -7,6 +7,7 @@
 
 #include "base/manual/command_line.h"
 #include "base/printable.h"
+#include "daemon/commission/commission.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
@@ -38,6 +39,14 @@ int main(int argc, char** argv) {
   app.add_option(
       "--check-data-sheet", data_sheet,
       "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and exit");
+  std::string commissioned;
+  CLI::Option* const commission = app.add_option(
+      "--commission", commissioned, "move this joint inside its limits to learn what it is, and exit");
+  std::string directory;
+  CLI::Option* const out =
+      app.add_option("--out", directory, "folder for commission.json, what --commission found");
+  commission->needs(out);
+  out->needs(commission);
   std::string gateway_socket;
   app.add_option(
       "--gateway-socket", gateway_socket,
@@ -51,6 +60,8 @@ int main(int argc, char** argv) {
                  {"/var/lib/strainwave/", "flight records"},
                  {"/usr/share/doc/strainwave/config/reference.toml", "every key of a configuration"}},
        .examples = {{"strainwaved --config strainwaved.toml --check", "whether it would start, and why not"},
+                    {"strainwaved --config strainwaved.toml --commission elbow --out elbow",
+                     "measure the joint elbow; a key ends it, and a later run goes on"},
                     {"strainwaved --config strainwaved.toml",
                      "run until a signal; every joint comes to rest before the end"}},
        .see_also = {"strainwavectl(1)", "strainwave-telemetry(8)", "strainwave-design(1)"}});
@@ -58,9 +69,11 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
   return strainwave::run_program(app, argc, argv, [&] {
-    const bool drives_alone = check_lines || check_drives || !data_sheet.empty();
-    strainwave::DaemonConfig config = strainwave::read_config(
-        config_path, drives_alone ? strainwave::ConfigUse::kCheckDrives : strainwave::ConfigUse::kRun);
+    const bool drives_alone = check_lines || check_drives || !data_sheet.empty() || !commissioned.empty();
+    strainwave::DaemonConfig config =
+        strainwave::read_config(config_path, !commissioned.empty() ? strainwave::ConfigUse::kCommission
+                                             : drives_alone        ? strainwave::ConfigUse::kCheckDrives
+                                                                   : strainwave::ConfigUse::kRun);
     config.gateway_socket = gateway_socket;
     if (drives_alone)
       for (const std::string& warning : config.warnings)
@@ -75,6 +88,8 @@ int main(int argc, char** argv) {
     if (check_lines) return as_status(strainwave::check_lines(config, std::cout));
     if (!data_sheet.empty()) return as_status(strainwave::check_data_sheet(config, data_sheet, std::cout));
     if (check_drives) return as_status(strainwave::check_drives(config, std::cout));
+    if (!commissioned.empty())
+      return strainwave::commission_joint(config, config_path, commissioned, directory, std::cout);
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);
     supervisor.run();

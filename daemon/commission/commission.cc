@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/commission/commission.h"
+
+#include <algorithm>
+
+#include "base/input_error.h"
+#include "base/printable.h"
+#include "control/joint/gear_catalogue.h"
+#include "daemon/assembly.h"
+#include "daemon/commission/commission_loop.h"
+#include "daemon/drive_check.h"
+
+namespace strainwave {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// To either side of where the joint stands, and of the planned motion: those of the study of this motion (tests/commission/study.cc).
+constexpr double kMostWay_rad = 0.7;
+constexpr double kMostAcceleration_rad_s2 = 3.0;
+// Arc minutes of the catalogue: one, and two below a ratio of 80 (data/gears.csv).
+constexpr double kArcMinute_rad = 0.000291;
+constexpr double kFineRatio = 80.0;
+
+std::size_t find_joint(const DaemonConfig& config, const std::string& name) {
+  std::string names;
+  for (std::size_t i = 0; i < config.joints.size(); ++i) {
+    if (config.joints[i].name == name) return i;
+    names += (i == 0 ? "" : ", ") + config.joints[i].name;
+  }
+  throw InputError("--commission " + name + ": a joint of the configuration is allowed: " + names);
+}
+
+void require_commissionable(const JointConfig& joint) {
+  const JointControllerConfig& controller = joint.loop.controller;
+  if (!controller.link)
+    throw InputError(joint.name +
+                     ": joint.model = \"rigid\": \"flexible\" is allowed, with gear, motor_inertia_kgm2 "
+                     "and load_inertia_kgm2: commissioning measures the spring, too");
+  if (controller.drive_closes_loop())
+    throw InputError(joint.name +
+                     ": joint.can.drive_mode: \"torque\" is allowed: a drive that closes its own loop "
+                     "takes no torque, by which commissioning measures");
+  if (controller.encoder_side == EncoderSide::kLink)
+    throw InputError(joint.name +
+                     ": encoder_side = \"link\": \"motor\" is allowed: the motion of the motor is measured");
+  if (joint.loop.homing.required)
+    throw InputError(
+        joint.name +
+        ": joint.homing: a joint that must be homed has no position yet. For this run delete "
+        "[joint.homing], set encoder = \"absolute\", and give limits around where the joint stands");
+}
+
+ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
+  const JointControllerConfig& controller = joint.loop.controller;
+  ExcitationConfig excitation;
+  excitation.limits = {joint.loop.limits.position_min_rad, joint.loop.limits.position_max_rad,
+                       controller.motion.velocity_rad_s,
+                       std::min(kMostAcceleration_rad_s2, controller.motion.acceleration_rad_s2),
+                       controller.torque_limit_Nm};
+  if (const Gear* const gear = find_gear(joint.plant.gear.view()))
+    excitation.limits.torque_Nm = std::min(excitation.limits.torque_Nm, gear->repeated_peak_torque_Nm);
+  excitation.period_s = period_s;
+  excitation.encoder_resolution_rad = controller.encoder_resolution_rad;
+  excitation.gear_ratio = joint.plant.gear_ratio;
+  excitation.motor_inertia_kgm2 = controller.link->motor_inertia_kgm2;
+  return excitation;
+}
+
+void begin_at(double position_rad, ExcitationConfig& excitation) {
+  excitation.start_rad = position_rad;
+  ExcitationLimits& limits = excitation.limits;
+  limits.position_min_rad = std::max(limits.position_min_rad, position_rad - kMostWay_rad);
+  limits.position_max_rad = std::min(limits.position_max_rad, position_rad + kMostWay_rad);
+}
+
+/// An earlier run's, unless the configuration has changed since.
+std::optional<CommissionRecord> record_before(const fs::path& config_file, const fs::path& directory) {
+  std::optional<CommissionRecord> record = read_commission_record(directory);
+  if (record && fs::last_write_time(config_file) > fs::last_write_time(directory / "commission.json"))
+    record.reset();
+  return record;
+}
+
+std::string identity_of(const std::vector<std::string>& lines, bool simulated) {
+  if (simulated) return "simulated drive, nothing to compare";
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+  return text.empty() ? "the drive has nothing that start-up could compare" : text;
+}
+
+}  // namespace
+
+CommissioningConfig commissioning_config(const DaemonConfig& config, std::size_t index) {
+  const JointConfig& joint = config.joints.at(index);
+  require_commissionable(joint);
+  const JointControllerConfig& controller = joint.loop.controller;
+  const LinkModel& link = *controller.link;
+  CommissioningConfig made;
+  made.joint = joint.name;
+  made.simulated = joint.driver == "simulated";
+  made.direction_key = joint.driver == "gpio" ? "gpio.torque.reversed" : joint.driver + ".direction";
+  made.excitation = excitation_config(joint, config.loop.period_s);
+  made.told = {joint.plant.gear_ratio, link.spring,
+               joint.plant.gear_ratio < kFineRatio ? 2.0 * kArcMinute_rad : kArcMinute_rad,
+               link.motor_inertia_kgm2};
+  ConfiguredNumbers& numbers = made.configured;
+  if (!joint.motor_inertia_assumed) numbers.motor_inertia_kgm2 = link.motor_inertia_kgm2;
+  if (!joint.load_inertia_assumed) numbers.load_inertia_kgm2 = link.link_inertia_kgm2;
+  numbers.stiffness_1_Nm_rad = link.spring.stiffness_1_Nm_rad;
+  if (link.damping_Nms_rad > 0.0) numbers.damping_Nms_rad = link.damping_Nms_rad;
+  if (controller.gravity.torque_Nm > 0.0) numbers.gravity = controller.gravity;
+  numbers.delay_periods = controller.delay_periods;
+  numbers.delay_key = joint.driver + ".delay_periods";
+  numbers.gear_ratio = joint.plant.gear_ratio;
+  numbers.period_s = config.loop.period_s;
+  return made;
+}
+
+ExitStatus commission_joint(const DaemonConfig& config, const fs::path& config_file, const std::string& joint,
+                            const fs::path& directory, std::ostream& out) {
+  const std::size_t index = find_joint(config, joint);
+  CommissioningConfig what = commissioning_config(config, index);
+  what.configuration = config_file.string();
+  std::optional<CommissionRecord> before = record_before(config_file, directory);
+  Interruption interruption;
+  const std::vector<InstanceLock> locks = lock_drives(config);
+  CommissionLoop loop(config.loop, assemble_loop(config), index, what.simulated);
+  if (!loop.real_time_refusal().empty())
+    out << "warning: no real time: " << printable(loop.real_time_refusal()) << '\n';
+  what.identity = identity_of(loop.take_messages(), what.simulated);
+  begin_at(loop.first_position_rad(), what.excitation);
+  Commissioning commissioning(what, std::move(before));
+  out << joint << ": commissioning; any key ends it\n";
+  bool interrupted = false;
+  while (const std::optional<std::string> announced = commissioning.begin()) {
+    out << printable(*announced) << std::endl;
+    interrupted = loop.run(commissioning, interruption) || interrupted;
+    out << "  " << printable(commissioning.finish()) << std::endl;
+    write_commission_record(directory, commissioning.record());
+    if (!interrupted) {
+      const char* const why = interruption.wait(0);
+      interrupted = why != nullptr;
+      if (interrupted) commissioning.abort(why);
+    }
+  }
+  write_commission_record(directory, commissioning.record());
+  out << "written: " << printable((directory / "commission.json").string()) << '\n';
+  if (interrupted) return ExitStatus::kInterrupted;
+  return commissioning.record().problem.empty() ? ExitStatus::kDone : ExitStatus::kRefused;
+}
+
+}  // namespace strainwave

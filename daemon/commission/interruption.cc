@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/commission/interruption.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace strainwave {
+
+Interruption::Interruption() {
+  termios terminal{};
+  if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &terminal) != 0) return;
+  before_ = terminal;
+  terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  ::tcsetattr(STDIN_FILENO, TCSANOW, &terminal);
+}
+
+Interruption::~Interruption() {
+  if (before_) ::tcsetattr(STDIN_FILENO, TCSANOW, &*before_);
+}
+
+const char* Interruption::wait(int timeout_ms) noexcept {
+  std::array<pollfd, 2> descriptors{{{signals_.descriptor(), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
+  if (::poll(descriptors.data(), before_ ? 2 : 1, timeout_ms) <= 0) return nullptr;
+  if (signals_.take()) return "a signal asked for the end";
+  char key = 0;
+  // A terminal that is gone is as good as a key.
+  if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "the terminal is gone";
+  if ((descriptors[1].revents & POLLIN) != 0 && ::read(STDIN_FILENO, &key, 1) >= 0)
+    return "a key was pressed";
+  return nullptr;
+}
+
+}  // namespace strainwave
