@@ -6,6 +6,7 @@
 #include "design/commands.h"
 #include "design/fit_catalogue_command.h"
 #include "design/fit_log_command.h"
+#include "design/fit_record_command.h"
 
 namespace strainwave {
 
@@ -16,6 +17,7 @@ struct FitOptions {
   std::string out;
   FitCatalogueOptions fit;
   FitLogOptions log;
+  FitRecordOptions record;
 };
 
 void add_log_options(CLI::App& command, FitOptions& options) {
@@ -40,19 +42,39 @@ void add_log_options(CLI::App& command, FitOptions& options) {
   add("--wanted", log.wanted, "relative half width above which a temperature is called missing");
 }
 
+void add_record_options(CLI::App& command, FitOptions& options) {
+  CLI::Option* const record =
+      command
+          .add_option("--record", options.record.record,
+                      "instead of a catalogue: commission.json of strainwavectl commission")
+          ->excludes(command.get_option("CATALOGUE"))
+          ->excludes(command.get_option("--log"))
+          ->type_name("FILE");
+  record->needs(command
+                    .add_option("--gear", options.record.gear,
+                                "with --record: the joint's gear, whose friction the record corrects")
+                    ->needs(record));
+  command
+      .add_option("--joint-model", options.record.joint_model,
+                  "with --record: identity of the joint (default: the gear's name; rhs17-6006 for csf-17-50)")
+      ->needs(record);
+}
+
 ExitStatus fit(FitOptions& options) {
-  options.log.out = options.fit.out = options.out;
+  options.record.out = options.log.out = options.fit.out = options.out;
   options.fit.catalogue = options.catalogue;
+  if (!options.record.record.empty()) return fit_record(options.record);
   if (!options.log.logs.empty()) return fit_logs(options.log);
-  if (options.catalogue.empty()) throw InputError("fit: a CATALOGUE or --log FILE... is needed");
+  if (options.catalogue.empty())
+    throw InputError("fit: a CATALOGUE, --log FILE... or --record FILE is needed");
   return fit_catalogue(options.fit);
 }
 
 }  // namespace
 
 void add_fit_command(CLI::App& program, CommandBody& chosen) {
-  CLI::App* command =
-      program.add_subcommand("fit", "Fit friction over temperature to a catalogue, or to logs of a joint");
+  CLI::App* command = program.add_subcommand(
+      "fit", "Fit friction over temperature to a catalogue, or to logs or the commissioning of a joint");
   const auto options = std::make_shared<FitOptions>();
   command->add_option("CATALOGUE", options->catalogue,
                       "CSV: running torque over speed and temperature, or parameters");
@@ -95,6 +117,7 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
                       "column for it; otherwise static friction is 1.6 N.cm above Coulomb friction");
   command->add_option("--out", options->out, "friction file to write (JSON)")->required();
   add_log_options(*command, *options);
+  add_record_options(*command, *options);
   command->callback([&chosen, options] { chosen = [options] { return fit(*options); }; });
 }
 

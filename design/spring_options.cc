@@ -12,6 +12,7 @@ namespace strainwave {
 namespace {
 
 constexpr double kLeastInertia_kgm2 = 1e-6;
+constexpr double kLeastStiffness_Nm_rad = 1.0;
 
 BoxRange parse_range(const std::string& place, const std::string& key, const std::string& text,
                      double least) {
@@ -50,6 +51,11 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
           "its inertia before the spring, at the joint (default: of the catalogue's actuator with the gear)")
       ->needs(load);
   command
+      .add_option("--stiffness_Nm_rad", options.stiffness_Nm_rad,
+                  "the first slope as measured, FROM..TO or one number, by which the gear's others grow, too "
+                  "(default: the gear's)")
+      ->needs(load);
+  command
       .add_option("--damping_Nms_rad", options.damping_Nms_rad,
                   "the spring's damping, FROM..TO or one number")
       ->needs(load)
@@ -69,6 +75,9 @@ SpringRequest spring_request(const SpringOptions& options, const std::string& pl
     throw InputError(place, "--motor-inertia_kgm2", number_text(request.motor_inertia_kgm2),
                      "must be the inertia on the motor's side of the spring, at the joint");
   request.link_inertia_kgm2 = parse_load(place, "--load-inertia_kgm2", options.load_inertia_kgm2);
+  if (!options.stiffness_Nm_rad.empty())
+    request.stiffness_1_Nm_rad =
+        parse_range(place, "--stiffness_Nm_rad", options.stiffness_Nm_rad, kLeastStiffness_Nm_rad);
   request.damping_Nms_rad = parse_range(place, "--damping_Nms_rad", options.damping_Nms_rad, 0.0);
   const BoxRange delays = parse_range(place, "--delay", options.delay_periods, 0.0);
   request.least_delay = static_cast<int>(delays.from);

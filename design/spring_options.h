@@ -17,13 +17,14 @@ struct SpringOptions {
   std::optional<double> motor_inertia_kgm2;
   /// "FROM..TO" or one number, in kg m^2 or "kg@RADIUSm"; empty: no spring is meant
   std::string load_inertia_kgm2;
+  std::string stiffness_Nm_rad;  ///< the first slope, likewise; empty: the gear's
   std::string damping_Nms_rad = "0";
   std::string delay_periods = "1";
 
   bool given() const { return !load_inertia_kgm2.empty(); }
 };
 
-/// --motor-inertia_kgm2, --load-inertia_kgm2 alias --load, --damping_Nms_rad, --delay.
+/// --motor-inertia_kgm2, --load-inertia_kgm2 alias --load, --stiffness_Nm_rad, --damping_Nms_rad, --delay.
 void add_spring_options(CLI::App& command, SpringOptions& options);
 
 /// Throws InputError naming `place`.

@@ -17,7 +17,8 @@ TorsionSpring read_spring(TomlSection& joint) {
   if (joint.has("gear")) {
     const Gear* gear = find_gear(joint.text("gear"));
     if (gear == nullptr) joint.fail("gear", "one of " + gear_names() + " is allowed");
-    return gear->spring;
+    const double catalogue = gear->spring.stiffness_1_Nm_rad;
+    return gear->spring.scaled(joint.number_or("stiffness_Nm_rad", catalogue, kPositive) / catalogue);
   }
   if (!joint.has("stiffness_torques_Nm"))
     return TorsionSpring::linear(joint.number("stiffness_Nm_rad", kPositive));

@@ -18,6 +18,9 @@ constexpr double kLargestRatio = 1e3;
 // Of critical damping: so far the planned motion allows for it (tests/control/motor_plan_test.cc); gears have a tenth of it.
 constexpr double kMostDamping = 0.5;
 
+// A first slope this far from the catalogue's is that of another gear.
+constexpr double kMostMeasured = 2.0;
+
 constexpr const char* kGearLine =
     "gear = \"csf-17-50\" (its catalogue name; or stiffness_Nm_rad = K1 of the gear's data sheet)";
 constexpr const char* kMotorLine =
@@ -56,8 +59,8 @@ void refuse_keys(const TomlSection& joint, const std::vector<const char*>& keys,
 }
 
 TorsionSpring named_spring(TomlSection& joint, PlantIdentity& plant) {
-  refuse_keys(joint, {"stiffness_Nm_rad", "stiffness_torques_Nm"},
-              "it is allowed only without gear, whose stiffness the catalogue has: delete one of the two");
+  refuse_keys(joint, {"stiffness_torques_Nm"},
+              "it is allowed only without gear, whose torques the catalogue has: delete one of the two");
   const Gear* gear = find_gear(joint.text("gear"));
   if (gear == nullptr)
     joint.fail("gear", "a gear of the catalogue is allowed: " + gear_names() +
@@ -68,7 +71,11 @@ TorsionSpring named_spring(TomlSection& joint, PlantIdentity& plant) {
                      " is allowed; that of this one is " + number_text(gear->ratio) +
                      ": set joint.gear_ratio to it if this is the gear");
   plant.gear = FixedString<32>(gear->name);
-  return gear->spring;
+  if (!joint.has("stiffness_Nm_rad")) return gear->spring;
+  // As measured; the catalogue's says what the other slopes are to it.
+  const double catalogue = gear->spring.stiffness_1_Nm_rad;
+  return gear->spring.scaled(
+      joint.number("stiffness_Nm_rad", {catalogue / kMostMeasured, catalogue * kMostMeasured}) / catalogue);
 }
 
 TorsionSpring measured_spring(TomlSection& joint) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "control/joint/gear_catalogue.h"
 #include "control/table/box_certificate.h"
 
 namespace strainwave {
@@ -26,8 +27,12 @@ void add_cells(CertifiedBox& box, const SpringProof& proof, const SpringLoop& lo
 }
 
 CertifiedBox requested_box(const GainTable& table, const std::string& gear, const SpringRequest& request) {
-  const SpringBox box =
-      spring_box(table.friction, gear, request.motor_inertia_kgm2, request.link_inertia_kgm2);
+  SpringBox box = spring_box(table.friction, gear, request.motor_inertia_kgm2, request.link_inertia_kgm2);
+  if (request.stiffness_1_Nm_rad) {
+    const double catalogue = find_gear(gear)->spring.stiffness_1_Nm_rad;
+    box.stiffness_Nm_rad.from *= request.stiffness_1_Nm_rad->from / catalogue;
+    box.stiffness_Nm_rad.to *= request.stiffness_1_Nm_rad->to / catalogue;
+  }
   return {table.box.encoder_side,
           box.motor_inertia_kgm2,
           box.link_inertia_kgm2,

@@ -2,16 +2,19 @@
 // Whether the gains of a table are proved on a box of joints, delay by delay. Offline.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "design/gains/spring_proof.h"
 
 namespace strainwave {
 
-/// What a user says of a box; stiffness and friction are the gear's and the table's.
+/// What a user says of a box; its friction is the table's.
 struct SpringRequest {
   double motor_inertia_kgm2 = 0.0;
   BoxRange link_inertia_kgm2;
+  std::optional<BoxRange>
+      stiffness_1_Nm_rad;  ///< of the first slope, by which the gear's others grow, too; nothing: the gear's
   BoxRange damping_Nms_rad;
   int least_delay = 0;
   int most_delay = 0;

@@ -68,9 +68,21 @@ TEST_F(ModelConfigTest, RefusesStiffnessesThatAreNone) {
   expect_mentions(
       error_of(flexible("stiffness_Nm_rad = [8100, 11000, 13000]\nstiffness_torques_Nm = [12, 3.9]")),
       {"joint[0].stiffness_torques_Nm", "two rising torques"});
-  for (const char* key : {"stiffness_Nm_rad = 8100", "stiffness_torques_Nm = [3.9, 12]"})
-    expect_mentions(error_of(flexible(std::string("gear = \"csf-17-50\"\n") + key)),
-                    {"joint[0].stiffness_", "only without gear"});
+  expect_mentions(error_of(flexible("gear = \"csf-17-50\"\nstiffness_torques_Nm = [3.9, 12]")),
+                  {"joint[0].stiffness_torques_Nm", "only without gear"});
+  expect_mentions(error_of(flexible("gear = \"csf-17-50\"\nstiffness_Nm_rad = 80000")),
+                  {"joint[0].stiffness_Nm_rad", "4050 to 16200"});
+}
+
+TEST_F(ModelConfigTest, ScalesAGearToTheFirstSlopeThatWasMeasured) {
+  const TorsionSpring measured =
+      joint_of(flexible("gear = \"csf-17-50\"\nstiffness_Nm_rad = 9720")).loop.controller.link->spring;
+  EXPECT_EQ(config_.joints.front().plant.gear.view(), "csf-17-50");
+  const TorsionSpring catalogue = joint_of(flexible()).loop.controller.link->spring;
+  for (const double angle_rad : {-0.0003, 0.0003})
+    EXPECT_NEAR(measured.torque_Nm(angle_rad), 1.2 * catalogue.torque_Nm(angle_rad), 1e-9) << angle_rad;
+  EXPECT_NEAR(measured.stiffness_3_Nm_rad, 1.2 * catalogue.stiffness_3_Nm_rad, 1e-6);
+  EXPECT_EQ(measured.torque_2_Nm, catalogue.torque_2_Nm);
 }
 
 TEST_F(ModelConfigTest, IsRefusedWhereItIsMissingWithTheLinesOfBothAndTheirSources) {

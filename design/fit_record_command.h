@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// strainwave-design fit --record: friction of a commissioned joint. What is measured at one temperature corrects the catalogue's friction of
+// its gear at all of them (design/friction/friction_update.h). Offline.
+#pragma once
+
+#include <string>
+
+#include "strainwave/exit_status.h"
+
+namespace strainwave {
+
+struct FitRecordOptions {
+  std::string record;       ///< commission.json
+  std::string gear;         ///< by its catalogue name
+  std::string joint_model;  ///< empty: the gear's usual one
+  std::string out;
+};
+
+/// The exit status; throws InputError.
+ExitStatus fit_record(const FitRecordOptions& options);
+
+}  // namespace strainwave
