@@ -9,9 +9,11 @@
 #include <filesystem>
 
 #include "base/text_file.h"
+#include "commission/commission_record.h"
 #include "control/table/gain_table_json.h"
 #include "control/units.h"
 #include "design/friction/friction_file.h"
+#include "design/joint_defaults.h"
 
 namespace strainwave {
 namespace {
@@ -357,6 +359,55 @@ TEST_F(DesignProgram, AnInfeasibleRequestLeavesAMessageAndNoFile) {
             1);
   EXPECT_NE(output_.find("--max-torque_Nm"), std::string::npos) << output_;
   EXPECT_FALSE(std::filesystem::exists(file("table.json")));
+}
+
+TEST_F(DesignProgram, FrictionMeasuredAtOneTemperatureCorrectsTheCatalogueAtAll) {
+  constexpr double kFactor = 1.5, kMeasured_C = 20.0;
+  const FuzzyFriction catalogue = catalogue_friction(*find_gear("csf-25-100"), "csf-25-100").rules.friction;
+  const auto torque_Nm = [](const FuzzyFriction& friction, double temperature_C, double speed_rad_s) {
+    return friction.torque_Nm(friction.blend(friction.weights(temperature_C)), speed_rad_s);
+  };
+  CommissionRecord record;
+  for (const double speed_rad_s : {0.1, 0.2, 0.4, 0.7})
+    record.friction.push_back(
+        {speed_rad_s, kMeasured_C, {kFactor * torque_Nm(catalogue, kMeasured_C, speed_rad_s), 0.05}});
+  write_commission_record(folder_, record);
+  ASSERT_EQ(
+      run("fit --gear csf-25-100 --record " + file("commission.json") + " --out " + file("friction.json")), 0)
+      << output_;
+  const FuzzyFriction fitted = read_friction_rules(file("friction.json"), 100.0, GearSide::kJoint).friction;
+  const auto factor = [&](double temperature_C, double speed_rad_s) {
+    return torque_Nm(fitted, temperature_C, speed_rad_s) / torque_Nm(catalogue, temperature_C, speed_rad_s);
+  };
+  for (const double speed_rad_s : {0.15, 0.5}) {
+    EXPECT_NEAR(factor(kMeasured_C, speed_rad_s), kFactor, 0.03 * kFactor) << speed_rad_s;
+    for (const double temperature_C : {-10.0, 0.0, 40.0})
+      EXPECT_NEAR(factor(temperature_C, speed_rad_s), kFactor, 0.1 * kFactor)
+          << temperature_C << " degC, " << speed_rad_s << " rad/s";
+  }
+}
+
+TEST_F(DesignProgram, FrictionOfARecordNeedsItsTemperatureAndAGear) {
+  CommissionRecord record;
+  record.friction = {{0.1, std::nan(""), {9.0, 0.1}}};
+  write_commission_record(folder_, record);
+  const std::string fit = "fit --record " + file("commission.json") + " --out " + file("friction.json");
+  EXPECT_EQ(run(fit), 2);
+  EXPECT_NE(output_.find("--gear"), std::string::npos) << output_;
+  EXPECT_EQ(run(fit + " --gear csf-25-100"), 2);
+  EXPECT_NE(output_.find("temperature is not known"), std::string::npos) << output_;
+}
+
+TEST_F(DesignProgram, AMeasuredStiffnessScalesTheSlopesOfTheBox) {
+  ASSERT_EQ(
+      run("gains --gear csf-17-50 --load-inertia_kgm2 0.095..0.1 --damping_Nms_rad 1 --stiffness_Nm_rad "
+          "7290..7290 --out " +
+          file("t.json")),
+      0)
+      << output_;
+  const GainTable made = read_gain_table(file("t.json"));
+  EXPECT_NEAR(made.box.stiffness_Nm_rad.from, 0.9 * 8100.0, 1e-6);
+  EXPECT_NEAR(made.box.stiffness_Nm_rad.to, 0.9 * 13000.0, 1e-6);
 }
 
 TEST_F(DesignProgram, BadInputIsNamed) {
