@@ -90,6 +90,16 @@ struct DoctorArguments {
 void examine_joint(Client& client, const Output& output, const DoctorArguments& arguments);
 void examine_log(const Output& output, const DoctorArguments& arguments);
 
+/// Lets strainwaved measure `joint` and strainwave-design make its table: commission.json, friction.json, table.json, JOINT.toml and
+/// report.html in `out`. What is there already is kept, but for the report. Throws ClientError that names the step that failed, and the
+/// command that repeats it.
+struct CommissionArguments {
+  std::string joint;
+  std::filesystem::path config;  ///< the daemon's file, which is not changed
+  std::filesystem::path out;     ///< a folder, which is made
+};
+void commission(const Output& output, const CommissionArguments& arguments);
+
 /// Draws a flight record (docs/flight-recorder.md) with gnuplot.
 struct PlotRecordArguments {
   std::filesystem::path file;

@@ -2,6 +2,7 @@
 #include "client/commands/sibling_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,11 +14,17 @@
 
 #include "base/unique_fd.h"
 #include "client/protocol/client.h"
+#include "client/protocol/interrupt.h"
 #include "strainwave/client_error.h"
 
 namespace strainwave {
 
 namespace {
+
+/// Ctrl-C reaches both; a signal to this program alone does not.
+void pass_interrupt_on(pid_t child) {
+  if (interrupted()) ::kill(child, SIGTERM);
+}
 
 /// What a child writes to its standard output and standard error, if somebody wants to have it.
 class Capture {
@@ -38,14 +45,15 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 
   const posix_spawn_file_actions_t* actions() const noexcept { return &actions_; }
-  /// Until the child closes it.
-  void read_all() {
+  /// Until `child` closes it.
+  void read_all(pid_t child) {
     if (into_ == nullptr) return;
     write_end_.reset();
     std::array<char, 4096> part{};
     for (ssize_t size = 1; size > 0 || (size < 0 && errno == EINTR);) {
       size = ::read(read_end_.get(), part.data(), part.size());
       if (size > 0) into_->append(part.data(), static_cast<std::size_t>(size));
+      if (size < 0) pass_interrupt_on(child);
     }
   }
 
@@ -75,10 +83,12 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
     throw ClientError(ExitStatus::kUsage, program +
                                               " cannot be run: " + std::generic_category().message(failure) +
                                               ": install it beside strainwavectl");
-  capture.read_all();
+  capture.read_all(child);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
+  while (::waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for " + name);
+    pass_interrupt_on(child);
+  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

@@ -39,7 +39,7 @@ void add_identify_command(CLI::App& app, Invocation& invocation);
 void add_doctor_command(CLI::App& app, Invocation& invocation);
 void add_log_commands(CLI::App& app, Invocation& invocation);       ///< record, export, play, plot-record
 void add_key_commands(CLI::App& app, Invocation& invocation);       ///< keygen
-void add_hardware_commands(CLI::App& app, Invocation& invocation);  ///< can-scan, can-check, gpio-check
+void add_hardware_commands(CLI::App& app, Invocation& invocation);  ///< can-scan ... commission
 
 // Options that several commands have. The value is checked before the command runs.
 CLI::Option* add_joint(CLI::App& command, std::string& joint);

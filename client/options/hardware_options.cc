@@ -41,6 +41,23 @@ void add_gpio_check(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_commission(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand(
+      "commission",
+      "measure a joint, design its gain table and write its configuration (no daemon); Ctrl-C stops it");
+  auto arguments = std::make_shared<CommissionArguments>();
+  add_joint(*command, arguments->joint)->required();
+  command->add_option("--config", arguments->config, "the daemon's configuration file, which is not changed")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--out", arguments->out, "folder for the results; what it has already is kept")
+      ->required()
+      ->type_name("DIR");
+  command->callback([&invocation, arguments] {
+    invocation.local_command = [arguments](const Output& output) { commission(output, *arguments); };
+  });
+}
+
 }  // namespace
 
 void add_hardware_commands(CLI::App& app, Invocation& invocation) {
@@ -52,6 +69,7 @@ void add_hardware_commands(CLI::App& app, Invocation& invocation) {
   });
   add_can_check(app, invocation);
   add_gpio_check(app, invocation);
+  add_commission(app, invocation);
 }
 
 }  // namespace strainwave

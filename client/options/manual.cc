@@ -33,6 +33,8 @@ Manual manual_of_strainwavectl() {
                    {"strainwavectl move elbow 0.5 wrist -0.2", "two joints leave and arrive together"},
                    {"strainwavectl path wave.csv --wait", "follow a path of one or several joints"},
                    {"strainwavectl disable --all", "stop every joint of the daemon and switch it off"},
+                   {"strainwavectl commission elbow --config arm.toml --out elbow",
+                    "measure a joint, and make its table, configuration and report"},
                    {"strainwavectl record elbow --out elbow.lcm --duration_s 10",
                     "what the joint does, for export and identification"}},
       .see_also = {"strainwaved(8)", "strainwave-telemetry(8)", "strainwave-design(1)", "strainwave-spy(1)"},
