@@ -213,7 +213,7 @@ double Excitation::stroke_Nm(double position_rad, double speed_rad_s) {
   }
   const double torque = follow_Nm(speed_rad_s, (planned_rad_s_ - before) / config_.period_s);
   if (!stroke.shaken || std::abs(planned_rad_s_) < 0.999 * stroke.speed_rad_s) return torque;
-  const double shaken = torque + shake_Nm(quick_rad_s_ - planned_rad_s_);
+  const double shaken = torque + shake_Nm(position_rad);
   if (std::abs(quick_rad_s_) < 0.5 * sliding_speed_rad_s(config_.gear_ratio)) sines_.forget_repetition();
   sines_.respond(shaken, quick_rad_s_);
   return shaken;
@@ -255,8 +255,11 @@ double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   return hold + sticking_Nm_ + feedback;
 }
 
-double Excitation::shake_Nm(double speed_rad_s) {
-  shake_squares_ += speed_rad_s * speed_rad_s;
+double Excitation::shake_Nm(double position_rad) {
+  // Over two periods: a longer mean would hide a part of a fast resonance.
+  const JointSample& before = trace_.samples[trace_.samples.size() - 2];
+  const double speed_rad_s = (position_rad - before.motor_position_rad) / (2.0 * config_.period_s);
+  shake_squares_ += std::pow(speed_rad_s - planned_rad_s_, 2);
   ++shaken_periods_;
   return shake_rms_Nm_ * sines_.step();
 }

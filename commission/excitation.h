@@ -70,7 +70,7 @@ class Excitation {
   double ramp_Nm(double position_rad);
   double stroke_Nm(double position_rad, double speed_rad_s);
   double follow_Nm(double speed_rad_s, double acceleration_rad_s2);
-  double shake_Nm(double speed_rad_s);
+  double shake_Nm(double position_rad);
   void adapt_shaking();
   void next_stroke();
   void record(const ActuatorReading& reading, double torque_Nm);

@@ -16,13 +16,14 @@ namespace {
 constexpr double kLeastWorkShare = 0.2;
 constexpr double kLeastWay_counts = 20.0;
 constexpr std::size_t kRestSamples = 20;
-// A stretch of steady speed keeps within this share of its first speed, as a mean over so many samples, and its speed around that mean
-// has less than this share, root mean square.
-constexpr double kSteady = 0.1;
-constexpr double kRipple = 0.15;
-constexpr std::size_t kSteadySamples = 50;
+// Over a motor turn at steady speed, the speed changes by at most this share of it from one end to the other.
+constexpr double kSteady = 0.25;
+// What the gear transmits adds up to 10 % of its size to friction (docs/flexible-joint.md), so a swing of this share of it adds 2 %.
+constexpr double kEvenTorque = 0.2;
 // Speeds there and back that count as the same.
 constexpr double kSameSpeed = 0.1;
+// The fastest turn of a motor: 6000 RPM at a period of a millisecond.
+constexpr std::size_t kLeastTurnSamples = 10;
 // Of friction, what its place on the way and the torque's ripple leave: commission_study.
 constexpr double kFrictionShare = 0.015;
 
@@ -37,73 +38,60 @@ IntervalEstimate mean_of(const std::vector<double>& values, double least) {
   return {mean, std::max(least, 1.96 * deviation)};
 }
 
-/// Steady motion one way.
-struct SteadyRun {
-  std::size_t first = 0;
-  std::size_t end = 0;
+/// One motor turn one way.
+struct Turn {
+  long number = 0;  ///< of the motor, from position 0
   double direction = 1.0;
   double speed_rad_s = 0.0;
+  double torque_Nm = 0.0;  ///< mean, without what changed the speed
+  double swing_Nm = 0.0;   ///< of the torque around its mean, root mean square
+  double temperature_C = 0.0;
 };
 
-double mean_speed(const JointTrace& trace, std::size_t from, std::size_t to) {
-  return (trace.samples[to].motor_position_rad - trace.samples[from].motor_position_rad) /
-         (trace.period_s * static_cast<double>(to - from));
-}
-
-/// Of the speed over 8 periods around `speed`, root mean square, as a share of it.
-double ripple(const JointTrace& trace, std::size_t first, std::size_t last, double speed) {
+/// Samples first..end-1, which are a turn; nothing where its speed is not steady.
+std::optional<Turn> steady_turn(const JointTrace& trace, const FrictionSearch& search, std::size_t first,
+                                std::size_t end) {
+  const auto n = static_cast<double>(end - first);
+  const auto ago = static_cast<std::size_t>(std::lround(search.delay_s / trace.period_s));
+  Turn turn;
   double squares = 0.0;
-  for (std::size_t k = first; k < last; ++k) squares += std::pow(speed_around(trace, k) / speed - 1.0, 2);
-  return std::sqrt(squares / static_cast<double>(last - first));
+  for (std::size_t k = first; k < end; ++k) {
+    const double torque = trace.samples[k > ago ? k - ago : 0].torque_ordered_Nm;
+    turn.torque_Nm += torque / n;
+    squares += torque * torque / n;
+  }
+  turn.swing_Nm = std::sqrt(std::max(0.0, squares - turn.torque_Nm * turn.torque_Nm));
+  const double change_rad_s = speed_around(trace, end) - speed_around(trace, first);
+  turn.torque_Nm -= search.inertia_kgm2 * change_rad_s / (n * trace.period_s);
+  turn.speed_rad_s =
+      std::abs(trace.samples[end].motor_position_rad - trace.samples[first].motor_position_rad) /
+      (n * trace.period_s);
+  turn.temperature_C = trace.samples[first].temperature_C;
+  const bool steady = std::abs(change_rad_s) < kSteady * turn.speed_rad_s;
+  return steady ? std::optional(turn) : std::nullopt;
 }
 
-std::vector<SteadyRun> steady_runs(const JointTrace& trace, double gear_ratio) {
-  const double turn_rad = kTurn_rad / gear_ratio;
-  std::vector<SteadyRun> runs;
-  for (const MotionSpan& span : sliding_spans(trace, gear_ratio, 2 * kSteadySamples)) {
-    const std::size_t end = span.first + span.count;
-    for (std::size_t first = span.first; first + kSteadySamples < end;) {
-      const double start_speed = mean_speed(trace, first, first + kSteadySamples);
-      std::size_t last = first + 1;
-      while (last + kSteadySamples < end && std::abs(mean_speed(trace, last, last + kSteadySamples) -
-                                                     start_speed) < kSteady * std::abs(start_speed))
-        ++last;
-      const double speed = mean_speed(trace, first, last);
-      const double way = std::abs(speed) * trace.period_s * static_cast<double>(last - first);
-      if (way >= turn_rad && ripple(trace, first, last, speed) < kRipple)
-        runs.push_back({first, last, span.direction, std::abs(speed)});
-      first = way >= turn_rad ? last : first + kSteadySamples / 2;
+/// Every whole turn at steady speed.
+std::vector<Turn> steady_turns(const JointTrace& trace, const FrictionSearch& search) {
+  const double turn_rad = kTurn_rad / search.gear_ratio;
+  std::vector<Turn> turns;
+  for (const MotionSpan& span : sliding_spans(trace, search.gear_ratio, kLeastTurnSamples)) {
+    const auto number_at = [&](std::size_t k) {
+      return static_cast<long>(std::floor(trace.samples[k].motor_position_rad / turn_rad));
+    };
+    std::optional<std::size_t> first;  // of a turn that began in this span
+    for (std::size_t k = span.first + 1; k < span.first + span.count; ++k) {
+      if (number_at(k) == number_at(k - 1)) continue;
+      std::optional<Turn> turn = first ? steady_turn(trace, search, *first, k) : std::nullopt;
+      if (turn) {
+        turn->number = number_at(k - 1);
+        turn->direction = span.direction;
+        turns.push_back(*turn);
+      }
+      first = k;
     }
   }
-  return runs;
-}
-
-/// Over one motor turn.
-struct TurnMean {
-  double torque_Nm = 0.0;  ///< without what changed the speed
-  double speed_rad_s = 0.0;
-};
-
-/// Of `run` over positions from..to, for each whole turn of them.
-std::vector<TurnMean> means_by_turn(const JointTrace& trace, const SteadyRun& run, double from, double to,
-                                    int turns, double inertia_kgm2) {
-  std::vector<TurnMean> means(static_cast<std::size_t>(turns));
-  std::vector<double> counts(means.size(), 0.0);
-  for (std::size_t k = run.first; k < run.end; ++k) {
-    const double share = (trace.samples[k].motor_position_rad - from) / (to - from);
-    if (share < 0.0 || share >= 1.0) continue;
-    const auto turn = static_cast<std::size_t>(share * turns);
-    const double speed = speed_around(trace, k);
-    const double acceleration = (speed_around(trace, k + 1) - speed) / trace.period_s;
-    means[turn].torque_Nm += trace.samples[k].torque_ordered_Nm - inertia_kgm2 * acceleration;
-    means[turn].speed_rad_s += speed;
-    counts[turn] += 1.0;
-  }
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    means[i].torque_Nm /= std::max(1.0, counts[i]);
-    means[i].speed_rad_s /= std::max(1.0, counts[i]);
-  }
-  return means;
+  return turns;
 }
 
 /// One motor turn there and back.
@@ -113,22 +101,15 @@ struct FrictionSample {
   double friction_Nm = 0.0;
 };
 
-/// What `there` and `back` have in common: whole turns of the same positions.
-void pair_up(const JointTrace& trace, const SteadyRun& there, const SteadyRun& back,
-             const FrictionSearch& search, std::vector<FrictionSample>& samples) {
-  const auto position = [&](std::size_t k) { return trace.samples[k].motor_position_rad; };
-  const double low = std::max(position(there.first), position(back.end - 1));
-  const double high = std::min(position(there.end - 1), position(back.first));
-  const double turn_rad = kTurn_rad / search.gear_ratio;
-  const int turns = static_cast<int>((high - low) / turn_rad);
-  if (turns < 1) return;
-  const double end = low + turns * turn_rad;
-  const std::vector<TurnMean> up = means_by_turn(trace, there, low, end, turns, search.inertia_kgm2);
-  const std::vector<TurnMean> down = means_by_turn(trace, back, low, end, turns, search.inertia_kgm2);
-  for (std::size_t i = 0; i < up.size(); ++i)
-    samples.push_back({0.5 * (up[i].speed_rad_s - down[i].speed_rad_s),
-                       trace.samples[there.end - 1].temperature_C,
-                       0.5 * (up[i].torque_Nm - down[i].torque_Nm)});
+/// Nothing where they are not one turn there and back, at one speed, under an even torque.
+std::optional<FrictionSample> friction_of(const Turn& there, const Turn& back) {
+  const bool one_turn = there.direction > 0.0 && back.direction < 0.0 && there.number == back.number;
+  const bool one_speed = std::abs(there.speed_rad_s - back.speed_rad_s) <= kSameSpeed * there.speed_rad_s;
+  const double friction_Nm = 0.5 * (there.torque_Nm - back.torque_Nm);
+  const bool even = std::max(there.swing_Nm, back.swing_Nm) < kEvenTorque * friction_Nm;
+  if (!one_turn || !one_speed || !even) return std::nullopt;
+  return FrictionSample{0.5 * (there.speed_rad_s + back.speed_rad_s),
+                        0.5 * (there.temperature_C + back.temperature_C), friction_Nm};
 }
 
 }  // namespace
@@ -178,12 +159,10 @@ std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& 
 
 std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search) {
   std::vector<FrictionSample> samples;
-  const std::vector<SteadyRun> runs = steady_runs(trace, search.gear_ratio);
-  for (const SteadyRun& there : runs)
-    for (const SteadyRun& back : runs)
-      if (there.direction > 0.0 && back.direction < 0.0 &&
-          std::abs(there.speed_rad_s - back.speed_rad_s) <= kSameSpeed * there.speed_rad_s)
-        pair_up(trace, there, back, search, samples);
+  const std::vector<Turn> turns = steady_turns(trace, search);
+  for (const Turn& there : turns)
+    for (const Turn& back : turns)
+      if (const auto sample = friction_of(there, back)) samples.push_back(*sample);
   std::sort(samples.begin(), samples.end(),
             [](const FrictionSample& a, const FrictionSample& b) { return a.speed_rad_s < b.speed_rad_s; });
   std::vector<FrictionAtSpeed> points;
@@ -202,7 +181,7 @@ std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const Fricti
     point.torque_Nm = mean_of(torques, 0.0);
     point.torque_Nm.half_width_95 =
         std::max(point.torque_Nm.half_width_95, kFrictionShare * point.torque_Nm.value);
-    points.push_back(point);
+    if (torques.size() > 1) points.push_back(point);  // one alone has no spread to be judged by
   }
   return points;
 }
@@ -215,8 +194,12 @@ JointEstimates identify(const JointTrace& trace, const ToldJoint& told) {
     return std::pair(both[0], both[1]);
   }();
   found.motion = fit_motion(trace, told);
-  found.friction =
-      find_friction(trace, {told.gear_ratio, found.motion ? found.motion->total_inertia_kgm2.value : 0.0});
+  FrictionSearch search{told.gear_ratio, 0.0, 0.0};
+  if (found.motion) {
+    search.inertia_kgm2 = found.motion->total_inertia_kgm2.value;
+    search.delay_s = found.motion->delay_s.value;
+  }
+  found.friction = find_friction(trace, search);
   return found;
 }
 

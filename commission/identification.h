@@ -23,14 +23,15 @@ std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& 
 struct FrictionSearch {
   double gear_ratio = 0.0;    ///< N > 0
   double inertia_kgm2 = 0.0;  ///< motor and link: what changes of the speed took; 0: not known
+  double delay_s = 0.0;       ///< from an order to its torque; 0: not known
 };
 
-/// Friction over speed from stretches of steady speed, of at least a whole motor turn each, in both directions over the same positions:
+/// Friction over speed from whole motor turns at steady speed, the same turn in both directions:
 ///   F(w) = (mean torque there - mean torque back) / 2
 std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search);
 
 /// Delay, inertias, spring, damping, gravity and kinematic error by nonlinear least squares over stretches in which the motor slides one
-/// way. Nothing when there are fewer than kLeastWindows stretches, or the motion is too even to show the inertia.
+/// way. Nothing when there are fewer than kLeastWindows stretches, when the motion is too even to show the inertia, or when no model fits.
 std::optional<MotionEstimates> fit_motion(const JointTrace& trace, const ToldJoint& told);
 inline constexpr int kLeastWindows = 6;
 

@@ -53,6 +53,7 @@ struct MotionWindow {
   double direction = 1.0;    ///< +1 or -1
   double speed_rad_s = 0.0;  ///< at its start, first guess, signed
   double friction_Nm = 0.0;  ///< c, first guess
+  std::size_t stroke = 0;    ///< number of the motion, from one reversal to the next, that it is part of
 };
 
 class MotionModel {

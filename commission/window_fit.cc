@@ -13,10 +13,16 @@ namespace {
 constexpr Eigen::Index kLag = 3;
 // A step of the parameters changes a logarithm by at most this.
 constexpr double kMostChange = 0.7;
+// A step that changes the cost by less than this share ends the fit.
+constexpr double kConverged = 1e-5;
 
 /// Steps of the difference quotients of what a stretch has of its own: position, speed, wind-up, its speed, friction.
 WindowVector own_steps() {
   return (WindowVector() << 1e-6, 1e-4, 1e-6, 1e-4, 1e-3).finished();
+}
+
+bool is_logarithm(Eigen::Index i) {
+  return i <= kLogDamping || i == kLogLag || i == kLogLostMotion;
 }
 
 double parameter_step(Eigen::Index i) {
@@ -35,7 +41,7 @@ WindowFit::WindowFit(const MotionModel& model, const MotionPrior& prior,
   model_.keep_in_bounds(parameters_);
 }
 
-void WindowFit::run(int iterations) {
+bool WindowFit::run(int iterations) {
   linearise();
   double damping = 1e-3;
   for (int i = 0; i < iterations; ++i) {
@@ -45,39 +51,65 @@ void WindowFit::run(int iterations) {
     for (const Stretch& stretch : stretches_) kept_own.push_back(stretch.own);
     Covariance damped = normal_;
     damped.diagonal() += damping * normal_.diagonal();
-    const MotionVector change = damped.ldlt().solve(right_).cwiseMax(-kMostChange).cwiseMin(kMostChange);
+    MotionVector change = damped.ldlt().solve(right_);
+    for (Eigen::Index k = 0; k < kMotionParameters; ++k)
+      if (is_logarithm(k)) change[k] = std::clamp(change[k], -kMostChange, kMostChange);
     parameters_ += change;
     model_.keep_in_bounds(parameters_);
     const MotionVector moved = parameters_ - kept;
-    for (Stretch& s : stretches_) s.own += s.own_normal.ldlt().solve(s.own_right - s.cross * moved);
-    if (present_cost() < before) {
+    for (Stretch& s : stretches_) {
+      auto own = s.own_normal;
+      own.diagonal() *= 1.0 + damping;
+      s.own += own.ldlt().solve(s.own_right - s.cross * moved);
+    }
+    const double cost = present_cost();
+    if (cost < before) {
       damping = std::max(1e-7, damping * 0.2);
       linearise();
-      if (before - cost_ < 1e-5 * before) break;
+      if (before - cost_ < kConverged * before) return true;
     } else {
       parameters_ = kept;
       for (std::size_t k = 0; k < stretches_.size(); ++k) stretches_[k].own = kept_own[k];
+      if (cost - before < kConverged * before) return true;
       damping *= 10.0;
-      if (damping > 1e4) break;
+      if (damping > 1e4) return false;
     }
   }
+  return false;
 }
 
 double WindowFit::residual_rad() const {
   return std::sqrt(squares_ / std::max(1.0, count_));
 }
 
+int WindowFit::strokes() const {
+  int count = 0;
+  for (std::size_t i = 0; i < stretches_.size(); ++i)
+    if (i == 0 || stretches_[i].window.stroke != stretches_[i - 1].window.stroke) ++count;
+  return count;
+}
+
 WindowFit::Covariance WindowFit::covariance() const {
-  Covariance scores = Covariance::Zero();
-  for (const Stretch& s : stretches_) scores += s.score * s.score.transpose();
-  const auto n = static_cast<double>(stretches_.size());
-  const double small = n / std::max(1.0, n - 4.0);
-  Covariance middle = small * scores;
+  Covariance spread = Covariance::Zero();
+  for (std::size_t i = 0; i < stretches_.size();) {
+    Covariance others = normal_;
+    MotionVector score = MotionVector::Zero();
+    for (const std::size_t stroke = stretches_[i].window.stroke;
+         i < stretches_.size() && stretches_[i].window.stroke == stroke; ++i) {
+      others -= stretches_[i].normal;
+      score += stretches_[i].score;
+    }
+    const MotionVector change = others.ldlt().solve(score);
+    spread += change * change.transpose();
+  }
+  // What is known before has its own share.
+  Covariance before = Covariance::Zero();
   const double variance = noise_variance();
   for (Eigen::Index i = 0; i < kMotionParameters; ++i)
-    if (prior_.deviation[i] > 0.0) middle(i, i) += std::pow(variance / prior_.deviation[i], 2);
+    if (prior_.deviation[i] > 0.0) before(i, i) = std::pow(variance / prior_.deviation[i], 2);
   const Covariance inverse = normal_.ldlt().solve(Covariance::Identity());
-  return inverse * middle * inverse.transpose();
+  const auto n = static_cast<double>(strokes());
+  return (n - 1.0) / n * spread + inverse * before * inverse.transpose();
 }
 
 Eigen::VectorXd WindowFit::residuals(const Stretch& stretch, const MotionVector& parameters,
@@ -149,7 +181,8 @@ void WindowFit::linearise(Stretch& s) {
   s.cross = L.transpose() * J;
   const Eigen::LDLT<Eigen::Matrix<double, kWindowParameters, kWindowParameters>> own = s.own_normal.ldlt();
   s.score = J.transpose() * r - s.cross.transpose() * own.solve(s.own_right);
-  normal_ += J.transpose() * J - s.cross.transpose() * own.solve(s.cross);
+  s.normal = J.transpose() * J - s.cross.transpose() * own.solve(s.cross);
+  normal_ += s.normal;
   right_ += s.score;
   squares_ += r.squaredNorm();
   count_ += static_cast<double>(r.size());

@@ -26,16 +26,19 @@ class WindowFit {
   WindowFit(const MotionModel& model, const MotionPrior& prior, const std::vector<MotionWindow>& windows,
             const MotionVector& start);
 
-  /// At most so many steps.
-  void run(int iterations);
+  /// At most so many steps; whether these were enough.
+  bool run(int iterations);
 
   const MotionVector& parameters() const { return parameters_; }
   double cost() const { return cost_; }
   /// Root mean square of the residuals.
   double residual_rad() const;
-  /// Of the parameters. Errors of the model make residuals of one stretch depend on each other, so the spread of the stretches' scores
-  /// counts, not that of the samples (White, Econometrica 48, 1980, by clusters).
+  /// Of the parameters. Errors of the model are common to the stretches of one stroke. Each stroke is left out in turn, and the spread of
+  /// what the others say counts: the jackknife by clusters (MacKinnon, Nielsen and Webb, Journal of Applied Econometrics 38, 2023), to
+  /// first order.
   Covariance covariance() const;
+  /// From one reversal to the next, that the stretches are parts of.
+  int strokes() const;
 
  private:
   struct Stretch {
@@ -49,6 +52,7 @@ class WindowFit {
     WindowVector own_right = WindowVector::Zero();
     MotionVector score =
         MotionVector::Zero();  ///< gradient of this stretch's squares, own parameters eliminated
+    Covariance normal = Covariance::Zero();  ///< likewise
   };
 
   Eigen::VectorXd residuals(const Stretch& stretch, const MotionVector& parameters,

@@ -4,90 +4,83 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "tests/commission/random_joints.h"
 
 namespace strainwave::testing {
 namespace {
 
-/// A few joints of the study (tests/commission/study.cc) and what is found of each. Made once: each takes seconds.
+/// A joint of the study (tests/commission/study.cc) and what is found of it.
 struct Found {
   RandomJoint joint;
   CommissionedJoint run;
   JointEstimates estimates;
 };
 
-const std::vector<Found>& found() {
-  static const std::vector<Found> all = [] {
-    std::vector<Found> list;
-    for (const std::uint64_t seed : {2U, 4U, 6U}) {
-      const RandomJoint joint = random_joint(seed);
-      CommissionedJoint run = excite(joint);
-      const JointEstimates estimates = identify(run.trace, joint.told);
-      list.push_back({joint, std::move(run), estimates});
-    }
-    return list;
-  }();
-  return all;
+Found find(std::uint64_t seed) {
+  const RandomJoint joint = random_joint(seed);
+  CommissionedJoint run = excite(joint);
+  const JointEstimates estimates = identify(run.trace, joint.told);
+  return {joint, std::move(run), estimates};
 }
 
-/// The largest share by which `quantity` is off.
-double worst(const std::string& quantity) {
-  double most = 0.0;
-  int count = 0;
-  for (const Found& one : found())
+/// Made once: it takes seconds.
+const Found& found() {
+  static const Found one = find(2);
+  return one;
+}
+
+/// The goal for `quantity`, in its unit; nothing where there is none.
+std::optional<double> goal(const std::string& quantity) {
+  if (quantity == "resonance") return 2.0;
+  if (quantity == "stiffness" || quantity == "link inertia" || quantity == "motor inertia") return 5.0;
+  if (quantity == "delay") return 0.2;
+  if (quantity == "friction") return 3.0;
+  return std::nullopt;
+}
+
+TEST(IdentificationStudy, FindsTheNumbersOfTwelveJointsWithinGoalsAndIntervals) {
+  int all = 0, held = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Found one = find(seed);
+    EXPECT_EQ(one.run.problem, "") << seed;
+    EXPECT_GE(one.estimates.friction.size(), 2U) << seed;
     for (const Comparison& comparison : compare(one.joint, one.estimates)) {
-      if (comparison.quantity != quantity) continue;
-      ++count;
-      most = std::max(most, comparison.error());
-    }
-  return count > 0 ? most : 1.0;
-}
-
-TEST(Identification, FindsInertiasAndSpringWithinTheGoals) {
-  EXPECT_LT(worst("resonance"), 0.02);
-  EXPECT_LT(worst("stiffness"), 0.05);
-  EXPECT_LT(worst("link inertia"), 0.05);
-  EXPECT_LT(worst("motor inertia"), 0.05);
-}
-
-TEST(Identification, FindsFrictionWithinThreePerCentAtAllSpeeds) {
-  EXPECT_LT(worst("friction"), 0.03);
-  for (const Found& one : found()) EXPECT_GE(one.estimates.friction.size(), 3U);
-}
-
-TEST(Identification, FindsTheDelayWithinAFifthOfAMillisecond) {
-  for (const Found& one : found())
-    for (const Comparison& comparison : compare(one.joint, one.estimates))
-      if (comparison.quantity == "delay") {
-        EXPECT_LT(std::abs(comparison.found.value - comparison.truth), 0.2e-3);
+      ASSERT_FALSE(comparison.absent) << comparison.quantity << " of " << seed;
+      if (const auto most = goal(comparison.quantity)) {
+        EXPECT_LT(std::abs(comparison.error_in_unit()), *most) << comparison.quantity << " of " << seed;
       }
+      ++all;
+      held += comparison.found.holds(comparison.truth) ? 1 : 0;
+    }
+  }
+  // 95 % are meant; the study's goal is 90 %.
+  EXPECT_GE(held, std::lround(0.9 * all)) << held << " of " << all;
 }
 
 TEST(Identification, SaysWhichWayTheTorqueActs) {
-  for (const Found& one : found()) {
-    EXPECT_EQ(find_direction(one.run.trace), 1);
-    JointTrace reversed = one.run.trace;
-    for (JointSample& sample : reversed.samples) sample.motor_position_rad *= -1.0;
-    EXPECT_EQ(find_direction(reversed), -1);
-  }
+  EXPECT_EQ(find_direction(found().run.trace), 1);
+  JointTrace reversed = found().run.trace;
+  for (JointSample& sample : reversed.samples) sample.motor_position_rad *= -1.0;
+  EXPECT_EQ(find_direction(reversed), -1);
 }
 
 TEST(Identification, FindsTheTorqueOfBreakingAwayBothWays) {
-  for (const Found& one : found()) {
-    const JointPlantConfig& plant = one.joint.drive.plant;
-    const double truth = plant.joint.friction.at(one.joint.drive.ambient.at(0.0)).static_Nm;
-    // Gravity helps one way and is in the way of the other; its mean is left out.
-    const auto& [up, down] =
-        std::pair(one.estimates.breakaway_positive_Nm, one.estimates.breakaway_negative_Nm);
-    ASSERT_TRUE(up && down);
-    EXPECT_NEAR(0.5 * (up->value + down->value) / truth, 1.0, 0.35);
-  }
+  const Found& one = found();
+  const JointPlantConfig& plant = one.joint.drive.plant;
+  const double truth = plant.joint.friction.at(one.joint.drive.ambient.at(0.0)).static_Nm;
+  // Gravity helps one way and is in the way of the other; its mean is left out.
+  const auto& [up, down] =
+      std::pair(one.estimates.breakaway_positive_Nm, one.estimates.breakaway_negative_Nm);
+  ASSERT_TRUE(up && down);
+  EXPECT_NEAR(0.5 * (up->value + down->value) / truth, 1.0, 0.35);
 }
 
 TEST(Identification, FindsNothingInATraceAtRest) {
   JointTrace trace{0.001, 1e-5, std::vector<JointSample>(2000)};
-  const JointEstimates estimates = identify(trace, found().front().joint.told);
+  const JointEstimates estimates = identify(trace, found().joint.told);
   EXPECT_FALSE(estimates.direction);
   EXPECT_FALSE(estimates.motion);
   EXPECT_TRUE(estimates.friction.empty());

@@ -39,6 +39,27 @@ double lost_motion_rad(const Gear& gear) {
   return gear.ratio >= 80.0 ? 0.000291 : 0.000582;  // data/gears.csv
 }
 
+/// What friction adds in proportion to the load: gravity's, a mean over the way of the strokes at this speed.
+double friction_by_load_Nm(const RandomJoint& joint, double speed_rad_s) {
+  const JointEffects& effects = joint.drive.plant.effects;
+  double best = 1e300;
+  double low_rad = 0.0, high_rad = 0.0, from_rad = joint.excitation.start_rad;
+  for (const Stroke& stroke : plan_strokes(joint.excitation)) {
+    const double off = std::abs(std::log(stroke.speed_rad_s / speed_rad_s));
+    if (!stroke.shaken && off <= best) {  // the last of a speed: there and back are over its way
+      best = off;
+      low_rad = std::min(from_rad, stroke.to_rad);
+      high_rad = std::max(from_rad, stroke.to_rad);
+    }
+    from_rad = stroke.to_rad;
+  }
+  constexpr int kPlaces = 100;
+  double sum = 0.0;
+  for (int i = 0; i < kPlaces; ++i)
+    sum += std::abs(effects.gravity.at(low_rad + (high_rad - low_rad) * (i + 0.5) / kPlaces));
+  return effects.friction.transmitted_share * sum / kPlaces;
+}
+
 }  // namespace
 
 RandomJoint random_joint(std::uint64_t seed) {
@@ -59,7 +80,8 @@ RandomJoint random_joint(std::uint64_t seed) {
   const FrictionLaw law = estimate_friction(gear, {reference_joint().friction, reference_joint().stribeck});
   plant.joint.friction = law.over_temperature;
   plant.joint.stribeck = law.stribeck;
-  scale(plant.joint.friction, draw(0.5, 1.5));
+  joint.friction_scale = draw(0.5, 1.5);
+  scale(plant.joint.friction, joint.friction_scale);
   plant.motor.peak_torque_Nm = gear.repeated_peak_torque_Nm;
   plant.encoder.counts_per_joint_revolution = 4096.0 * N;
   plant.delay.periods = draw(0.5, 2.5);
@@ -104,8 +126,17 @@ CommissionedJoint excite(const RandomJoint& joint) {
   constexpr int kLongest = 300'000;
   for (int k = 0; k < kLongest && !excitation.ended(); ++k, now_ns += 1'000'000) {
     const ActuatorReading reading = drive.read(now_ns);
-    drive.write(excitation.step(reading));
-    run.most_speed_rad_s = std::max(run.most_speed_rad_s, std::abs(drive.plant().state().velocity_rad_s));
+    const ActuatorCommand command = excitation.step(reading);
+    drive.write(command);
+    const auto& state = drive.plant().state();
+    const ExcitationLimits& limits = joint.excitation.limits;
+    run.most_speed_rad_s = std::max(run.most_speed_rad_s, std::abs(state.velocity_rad_s));
+    const bool inside = state.position_rad >= limits.position_min_rad &&
+                        state.position_rad <= limits.position_max_rad &&
+                        std::abs(state.velocity_rad_s) <= limits.speed_rad_s &&
+                        std::abs(command.torque_Nm) <= limits.torque_Nm;
+    run.violations += inside ? 0 : 1;
+    run.faults += reading.fault == ActuatorFault::kNone ? 0 : 1;
   }
   run.duration_s = 1e-9 * static_cast<double>(now_ns);
   run.problem = excitation.ended() ? excitation.problem() : "did not end";
@@ -136,14 +167,11 @@ std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& 
       m ? std::optional(m->delay_s) : std::nullopt);
   if (plant.effects.gravity.torque_Nm > 0.0)
     add("gravity", plant.effects.gravity.torque_Nm, m ? std::optional(m->gravity_Nm) : std::nullopt);
-  // What friction adds in proportion to the load: gravity's, in the middle of the way.
-  const ExcitationLimits& limits = joint.excitation.limits;
-  const double added =
-      plant.effects.friction.transmitted_share *
-      std::abs(plant.effects.gravity.at(0.5 * (limits.position_min_rad + limits.position_max_rad)));
   for (const FrictionAtSpeed& point : found.friction) {
     const FrictionParameters f = plant.joint.friction.at(point.temperature_C);
-    add("friction", added + stribeck_friction_Nm(f, plant.joint.stribeck, point.speed_rad_s),
+    add("friction",
+        friction_by_load_Nm(joint, point.speed_rad_s) +
+            stribeck_friction_Nm(f, plant.joint.stribeck, point.speed_rad_s),
         point.torque_Nm);
   }
   return all;

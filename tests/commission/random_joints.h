@@ -14,6 +14,7 @@ namespace strainwave::testing {
 
 struct RandomJoint {
   std::string gear;
+  double friction_scale = 1.0;  ///< of the catalogue's estimate
   SimulatedActuatorConfig drive;
   ExcitationConfig excitation;
   ToldJoint told;  ///< by the catalogue alone: the wave generator's inertia and the nominal spring
@@ -25,6 +26,8 @@ struct CommissionedJoint {
   std::string problem;  ///< empty: the excitation ran to its end
   double duration_s = 0.0;
   double most_speed_rad_s = 0.0;  ///< true speed of the motor
+  int violations = 0;             ///< periods outside a limit, by the true motion and the torque ordered
+  int faults = 0;                 ///< readings with a fault
   JointTrace trace;
 };
 
@@ -39,9 +42,17 @@ struct Comparison {
   bool absent = false;
 
   double error() const { return absent ? 1.0 : std::abs(found.value / truth - 1.0); }
+
+  // The delay in ms, gravity in N.m, all others as a share.
+  const char* unit() const { return quantity == "delay" ? "ms" : quantity == "gravity" ? "N.m" : "%"; }
+  double error_in_unit() const { return (found.value - truth) * per_unit(); }
+  double half_width_in_unit() const { return found.half_width_95 * per_unit(); }
+
+ private:
+  double per_unit() const { return quantity == "delay" ? 1e3 : quantity == "gravity" ? 1.0 : 100.0 / truth; }
 };
 
-/// Everything that the goals name; delay in s, its error to be judged as it is.
+/// Everything that the goals name.
 std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& found);
 
 }  // namespace strainwave::testing
