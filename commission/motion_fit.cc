@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "commission/identification.h"
 #include "commission/motion_spans.h"
@@ -21,6 +20,9 @@ constexpr std::size_t kLeastWindow = 120;
 constexpr int kShortIterations = 12;
 constexpr int kLongIterations = 25;
 constexpr std::size_t kSearchWindows = 24;
+// Long stretches leave about what short ones leave, and a wrong resonance, out of phase, many times that.
+constexpr double kExplained = 3.0;
+constexpr std::size_t kTries = 3;
 // By this, errors that all strokes have in common make intervals longer than the spread of the strokes says: commission_study, which
 // finds nine of ten without it.
 constexpr double kCommonErrors = 1.3;
@@ -67,13 +69,20 @@ MotionPrior prior_of(const ToldJoint& told) {
   return prior;
 }
 
-/// Where a fit may start, best first: what explains short stretches, which a wrong resonance does not put out of phase.
-std::vector<MotionVector> starts(const MotionModel& model, const MotionPrior& prior) {
+/// Where a fit may start.
+struct Start {
+  double cost = 0.0;
+  double residual_rad = 0.0;  ///< of short stretches
+  MotionVector parameters;
+};
+
+/// Best first: what explains short stretches, which a wrong resonance does not put out of phase.
+std::vector<Start> starts(const MotionModel& model, const MotionPrior& prior) {
   std::vector<MotionWindow> all = cut(model.trace(), model.told(), kShortWindow);
   std::vector<MotionWindow> few;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kSearchWindows);
   for (std::size_t i = 0; i < all.size(); i += stride) few.push_back(all[i]);
-  std::vector<std::pair<double, MotionVector>> found;
+  std::vector<Start> found;
   for (const double motor : {1.0, 1.8, 3.2})
     for (const double link : {0.2, 0.8, 3.0}) {
       MotionVector start = prior.mean;
@@ -81,25 +90,23 @@ std::vector<MotionVector> starts(const MotionModel& model, const MotionPrior& pr
       start[kLogLinkInertia] = start[kLogMotorInertia] + std::log(link);
       WindowFit fit(model, prior, few, start);
       fit.run(kShortIterations);
-      if (std::isfinite(fit.cost())) found.emplace_back(fit.cost(), fit.parameters());
+      if (std::isfinite(fit.cost())) found.push_back({fit.cost(), fit.residual_rad(), fit.parameters()});
     }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<MotionVector> sorted;
-  for (auto& [cost, parameters] : found) {
-    // Short stretches do not part these from a stretch's own friction, which is at first guessed as all of the torque.
+  std::sort(found.begin(), found.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  // Short stretches do not part these from a stretch's own friction, which is at first guessed as all of the torque.
+  for (Start& start : found)
     for (const MotionParameter slow : {kViscous, kGravitySin, kGravityCos})
-      parameters[slow] = prior.mean[slow];
-    sorted.push_back(parameters);
-  }
-  return sorted;
+      start.parameters[slow] = prior.mean[slow];
+  return found;
 }
 
-/// From the first start from which it ends; nothing where it ends from none.
+/// From the first start from which long stretches are explained about as well as short ones; nothing where there is none.
 std::optional<WindowFit> fit_windows(const MotionModel& model, const std::vector<MotionWindow>& windows) {
   const MotionPrior prior = prior_of(model.told());
-  for (const MotionVector& start : starts(model, prior)) {
-    WindowFit fit(model, prior, windows, start);
-    if (fit.run(kLongIterations)) return fit;
+  const std::vector<Start> all = starts(model, prior);
+  for (std::size_t i = 0; i < std::min(kTries, all.size()); ++i) {
+    WindowFit fit(model, prior, windows, all[i].parameters);
+    if (fit.run(kLongIterations) && fit.residual_rad() < kExplained * all.front().residual_rad) return fit;
   }
   return std::nullopt;
 }

@@ -41,10 +41,13 @@ struct Equations {
   double half_lost_rad;
   TorsionSpring spring;
 
+  /// Within its bounds, which a fast swing leaves in a step: that would grow beyond all bounds.
+  double lost_rad(const State& x) const { return std::clamp(x.lost_rad, -half_lost_rad, half_lost_rad); }
   double transmitted_Nm(const State& x, const Input& in) const {
     const double bent_rad = x.motor_rad + in.error_rad - x.link_rad;
     const double bent_rad_s = in.lead * x.motor_rad_s - x.link_rad_s;
-    return spring.torque_Nm(bent_rad) + spring.stiffness_1_Nm_rad * x.lost_rad + damping_Nms_rad * bent_rad_s;
+    return spring.torque_Nm(bent_rad) + spring.stiffness_1_Nm_rad * lost_rad(x) +
+           damping_Nms_rad * bent_rad_s;
   }
   State slope(const State& x, const Input& in) const {
     const double bent_rad_s = in.lead * x.motor_rad_s - x.link_rad_s;
@@ -53,7 +56,7 @@ struct Equations {
         direction * (friction_Nm + share * std::abs(ts)) + viscous_Nms_rad * x.motor_rad_s;
     return {x.motor_rad_s, (in.torque_Nm - friction - in.lead * ts) / motor_kgm2, x.link_rad_s,
             (ts - in.gravity_Nm) / link_kgm2,
-            half_lost_rad > 0.0 ? bent_rad_s - std::abs(bent_rad_s) * x.lost_rad / half_lost_rad : 0.0};
+            half_lost_rad > 0.0 ? bent_rad_s - std::abs(bent_rad_s) * lost_rad(x) / half_lost_rad : 0.0};
   }
   State step(const State& x, const Input& begin, const Input& middle, const Input& end, double h) const {
     const State k1 = slope(x, begin);
@@ -165,6 +168,7 @@ void MotionModel::simulate(const MotionVector& p, const MotionWindow& window, co
         middle.torque_Nm = half_Nm;
         end.torque_Nm = end_Nm;
         x = eq.step(x, begin, middle, end, step * trace_.period_s);
+        x.lost_rad = eq.lost_rad(x);
         current_Nm = end_Nm;
       }
     }

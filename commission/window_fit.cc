@@ -13,6 +13,8 @@ namespace {
 constexpr Eigen::Index kLag = 3;
 // A step of the parameters changes a logarithm by at most this.
 constexpr double kMostChange = 0.7;
+// Of what a stretch has of its own, before the first step of all: a stretch may begin in a swing, far from the first guess.
+constexpr int kSettlingSteps = 6;
 // A step that changes the cost by less than this share ends the fit.
 constexpr double kConverged = 1e-5;
 
@@ -42,6 +44,7 @@ WindowFit::WindowFit(const MotionModel& model, const MotionPrior& prior,
 }
 
 bool WindowFit::run(int iterations) {
+  for (Stretch& stretch : stretches_) settle(stretch);
   linearise();
   double damping = 1e-3;
   for (int i = 0; i < iterations; ++i) {
@@ -58,7 +61,7 @@ bool WindowFit::run(int iterations) {
     model_.keep_in_bounds(parameters_);
     const MotionVector moved = parameters_ - kept;
     for (Stretch& s : stretches_) {
-      auto own = s.own_normal;
+      OwnNormal own = s.own_normal;
       own.diagonal() *= 1.0 + damping;
       s.own += own.ldlt().solve(s.own_right - s.cross * moved);
     }
@@ -158,28 +161,51 @@ void WindowFit::linearise() {
   cost_ = squares_ + prior_cost();
 }
 
-void WindowFit::linearise(Stretch& s) {
+WindowFit::OwnSlopes WindowFit::own_slopes(const Stretch& s, const Eigen::VectorXd& r) const {
   const WindowVector own_step = own_steps();
-  const Eigen::VectorXd r = residuals(s, parameters_, s.own);
-  Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters> J(r.size(), kMotionParameters);
-  Eigen::Matrix<double, Eigen::Dynamic, kWindowParameters> L(r.size(), kWindowParameters);
-  for (Eigen::Index i = 0; i < kMotionParameters; ++i) {
-    MotionVector p = parameters_;
-    p[i] += parameter_step(i);
-    J.col(i) = (r - residuals(s, p, s.own)) / parameter_step(i);
-  }
+  OwnSlopes L(r.size(), kWindowParameters);
   for (Eigen::Index i = 0; i < kWindowParameters; ++i) {
     WindowVector own = s.own;
     own[i] += own_step[i];
     L.col(i) = (r - residuals(s, parameters_, own)) / own_step[i];
   }
+  return L;
+}
+
+void WindowFit::settle(Stretch& s) {
+  double damping = 1e-3;
+  Eigen::VectorXd r = residuals(s, parameters_, s.own);
+  for (int i = 0; i < kSettlingSteps; ++i) {
+    const OwnSlopes L = own_slopes(s, r);
+    OwnNormal normal = L.transpose() * L;
+    normal.diagonal() *= 1.0 + damping;
+    normal(0, 0) += 1.0;
+    const WindowVector own = s.own + normal.ldlt().solve(L.transpose() * r);
+    const Eigen::VectorXd left = residuals(s, parameters_, own);
+    const bool better = left.squaredNorm() < r.squaredNorm();
+    damping *= better ? 0.2 : 10.0;
+    if (!better) continue;
+    s.own = own;
+    r = left;
+  }
+}
+
+void WindowFit::linearise(Stretch& s) {
+  const Eigen::VectorXd r = residuals(s, parameters_, s.own);
+  Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters> J(r.size(), kMotionParameters);
+  for (Eigen::Index i = 0; i < kMotionParameters; ++i) {
+    MotionVector p = parameters_;
+    p[i] += parameter_step(i);
+    J.col(i) = (r - residuals(s, p, s.own)) / parameter_step(i);
+  }
+  const OwnSlopes L = own_slopes(s, r);
   s.own_normal = L.transpose() * L;
   s.own_normal.diagonal() *= 1.0 + 1e-9;
   // Position has no effect on differences, but through gravity: keep it where it is.
   s.own_normal(0, 0) += 1.0;
   s.own_right = L.transpose() * r;
   s.cross = L.transpose() * J;
-  const Eigen::LDLT<Eigen::Matrix<double, kWindowParameters, kWindowParameters>> own = s.own_normal.ldlt();
+  const Eigen::LDLT<OwnNormal> own = s.own_normal.ldlt();
   s.score = J.transpose() * r - s.cross.transpose() * own.solve(s.own_right);
   s.normal = J.transpose() * J - s.cross.transpose() * own.solve(s.cross);
   normal_ += s.normal;

@@ -41,12 +41,14 @@ class WindowFit {
   int strokes() const;
 
  private:
+  using OwnNormal = Eigen::Matrix<double, kWindowParameters, kWindowParameters>;
+  using OwnSlopes = Eigen::Matrix<double, Eigen::Dynamic, kWindowParameters>;
+
   struct Stretch {
     MotionWindow window;
     WindowVector own = WindowVector::Zero();
     // Of the last linearisation.
-    Eigen::Matrix<double, kWindowParameters, kWindowParameters> own_normal =
-        Eigen::Matrix<double, kWindowParameters, kWindowParameters>::Zero();
+    OwnNormal own_normal = OwnNormal::Zero();
     Eigen::Matrix<double, kWindowParameters, kMotionParameters> cross =
         Eigen::Matrix<double, kWindowParameters, kMotionParameters>::Zero();
     WindowVector own_right = WindowVector::Zero();
@@ -57,6 +59,9 @@ class WindowFit {
 
   Eigen::VectorXd residuals(const Stretch& stretch, const MotionVector& parameters,
                             const WindowVector& own) const;
+  OwnSlopes own_slopes(const Stretch& stretch, const Eigen::VectorXd& residuals) const;
+  /// What the stretch has of its own, for the parameters as they are.
+  void settle(Stretch& stretch);
   void linearise();
   void linearise(Stretch& stretch);
   double noise_variance() const;
