@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The doctor's study: every cause on so many joints, and healthy ones. Prints how many are named first.
-//   doctor_study [JOINTS [HEALTHY [STRIDE [CAUSE]]]]
+// doctor_study [JOINTS [HEALTHY [FIRST [STRIDE [CAUSE]]]]]: the doctor on joints with each cause, numbered from FIRST, and on healthy
+// ones, as tables; what went wrong on the standard error. STRIDE: every so many periods are published; a CAUSE alone is shown in full.
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
+#include <mutex>
 #include <string>
 
+#include "base/parallel.h"
 #include "doctor/causes.h"
 #include "doctor/diagnosis.h"
 #include "doctor/motion_fit.h"
+#include "sim/studies/text_table.h"
 #include "tests/doctor/patient.h"
 
 namespace strainwave::testing {
@@ -15,7 +19,8 @@ namespace {
 
 void show_fit(const Evidence& evidence) {
   if (const auto fit = fit_motion(evidence))
-    std::printf(
+    std::fprintf(
+        stderr,
         "      fit J %.4f+-%.4f Fc %.3f+-%.3f Fv %.3f+-%.3f d %.2f+-%.2f K %.2f+-%.2f load %.2f+-%.2f rest "
         "%.3f windows %d\n",
         fit->inertia_kgm2.value, fit->inertia_kgm2.deviation, fit->coulomb_Nm.value,
@@ -31,52 +36,80 @@ void show(const Evidence& evidence, const Diagnosis& diagnosis) {
   show_fit(evidence);
   for (std::size_t i = 0; i < kFeatureCount; ++i)
     if (const auto& seen = features.observations[i]; seen && std::abs(seen->normalised()) > 2.0)
-      std::printf("      [%zu] %.2f: %s\n", i, seen->normalised(), seen->text.c_str());
+      std::fprintf(stderr, "      [%zu] %.2f: %s\n", i, seen->normalised(), seen->text.c_str());
   for (const Finding& finding : diagnosis.findings)
-    std::printf("      -> %s %.2f\n", std::string(finding.cause).c_str(), finding.probability);
-  for (const std::string& open : diagnosis.not_judged) std::printf("      ?? %s\n", open.c_str());
+    std::fprintf(stderr, "      -> %s %.2f\n", std::string(finding.cause).c_str(), finding.probability);
+  for (const std::string& open : diagnosis.not_judged) std::fprintf(stderr, "      ?? %s\n", open.c_str());
   if (!evidence.samples.empty())
-    std::printf("      last mode %d fault %d at cycle %ld\n", evidence.samples.back().mode,
-                evidence.samples.back().fault, static_cast<long>(evidence.samples.back().cycle));
+    std::fprintf(stderr, "      last mode %d fault %d at cycle %ld\n", evidence.samples.back().mode,
+                 evidence.samples.back().fault, static_cast<long>(evidence.samples.back().cycle));
 }
 
-int run(int joints, int healthy, int stride, const std::string& only, bool loud) {
+struct Study {
+  int joints = 10;  ///< for each cause
+  int healthy = 50;
+  int first = 0;
+  int stride = 1;
+  std::string only;  ///< cause; empty: all
+};
+
+struct Examined {
+  bool right = false;
+  double duration_s = 0.0;
+};
+
+/// Healthy where `cause` is empty.
+Examined examine_one(const std::string& cause, int index, const Study& study) {
+  Examined examined;
+  const Evidence evidence = examine(random_patient(cause, index), study.stride, examined.duration_s);
+  const Diagnosis diagnosis = diagnose(evidence);
+  const std::vector<Finding>& findings = diagnosis.findings;
+  examined.right = cause.empty() ? findings.empty() : !findings.empty() && findings.front().cause == cause;
+  if (examined.right && study.only.empty()) return examined;
+  static std::mutex showing;
+  const std::scoped_lock lock(showing);
+  std::fprintf(stderr, "   %s %d: %s\n", cause.empty() ? "healthy" : cause.c_str(), index,
+               examined.right ? "right" : "WRONG");
+  show(evidence, diagnosis);
+  return examined;
+}
+
+/// How many are right, and the longest test.
+std::pair<int, double> examine_all(const std::string& cause, int count, const Study& study) {
+  std::vector<Examined> all(static_cast<std::size_t>(count));
+  run_in_parallel(all.size(), [&](std::size_t i) {
+    all[i] = examine_one(cause, study.first + static_cast<int>(i), study);
+  });
+  int right = 0;
+  double longest_s = 0.0;
+  for (const Examined& one : all) {
+    right += one.right ? 1 : 0;
+    longest_s = std::max(longest_s, one.duration_s);
+  }
+  return {right, longest_s};
+}
+
+void run(const Study& study) {
+  TextTable by_cause{"Joints with one cause each", {"cause", "joints", "named first"}, {}};
   int named = 0, all = 0;
   double longest_s = 0.0;
   for (const Cause& cause : causes()) {
-    if (!only.empty() && cause.name != only) continue;
-    int right = 0;
-    for (int i = 0; i < joints; ++i) {
-      double seconds = 0.0;
-      const Evidence evidence = examine(random_patient(std::string(cause.name), i), stride, seconds);
-      longest_s = std::max(longest_s, seconds);
-      const Diagnosis diagnosis = diagnose(evidence);
-      const bool is_right = !diagnosis.findings.empty() && diagnosis.findings.front().cause == cause.name;
-      right += is_right ? 1 : 0;
-      if (!is_right || loud) {
-        std::printf("   %s %d: %s\n", std::string(cause.name).c_str(), i, is_right ? "right" : "WRONG");
-        show(evidence, diagnosis);
-      }
-    }
-    std::printf("%-30s %d of %d\n", std::string(cause.name).c_str(), right, joints);
-    std::fflush(stdout);
+    const std::string name(cause.name);
+    if (!study.only.empty() && name != study.only) continue;
+    const auto [right, duration_s] = examine_all(name, study.joints, study);
+    by_cause.rows.push_back({name, std::to_string(study.joints), std::to_string(right)});
+    std::fprintf(stderr, "%-30s %d of %d\n", name.c_str(), right, study.joints);
+    longest_s = std::max(longest_s, duration_s);
     named += right;
-    all += joints;
+    all += study.joints;
   }
-  int alarms = 0;
-  for (int i = 0; i < healthy; ++i) {
-    double seconds = 0.0;
-    const Evidence evidence = examine(random_patient("", i), stride, seconds);
-    const Diagnosis diagnosis = diagnose(evidence);
-    alarms += diagnosis.findings.empty() ? 0 : 1;
-    if (!diagnosis.findings.empty() || loud) {
-      std::printf("   healthy %d\n", i);
-      show(evidence, diagnosis);
-    }
-  }
-  std::printf("named first: %d of %d; alarms on healthy joints: %d of %d; longest %.1f s\n", named, all,
-              alarms, healthy, longest_s);
-  return 0;
+  by_cause.rows.push_back({"all", std::to_string(all), std::to_string(named)});
+  const auto [quiet, healthy_s] = examine_all("", study.healthy, study);
+  const TextTable healthy{"Healthy joints",
+                          {"joints", "alarms", "longest test of all (s)"},
+                          {{std::to_string(study.healthy), std::to_string(study.healthy - quiet),
+                            number(std::max(longest_s, healthy_s), 3)}}};
+  std::cout << by_cause.markdown() << '\n' << healthy.markdown();
 }
 
 }  // namespace
@@ -84,6 +117,6 @@ int run(int joints, int healthy, int stride, const std::string& only, bool loud)
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, int fallback) { return argc > i ? std::atoi(argv[i]) : fallback; };
-  return strainwave::testing::run(number(1, 10), number(2, 50), number(3, 1), argc > 4 ? argv[4] : "",
-                                  argc > 5);
+  strainwave::testing::run(
+      {number(1, 10), number(2, 50), number(3, 0), number(4, 1), argc > 5 ? argv[5] : ""});
 }
