@@ -72,6 +72,10 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
                              inertia.deviation, *evidence.told.inertia_kgm2));
 }
 
+bool knows_stiffness(const MotionFit& fit) {
+  return fit.stiffness_scale && fit.stiffness_scale->deviation <= kKnownShare * fit.stiffness_scale->value;
+}
+
 void add_delay(const Evidence& evidence, const MotionFit& fit, Features& features) {
   if (!evidence.told.delay_periods) {
     features.not_judged.emplace_back("delay: give --config with delay_periods");
@@ -83,6 +87,10 @@ void add_delay(const Evidence& evidence, const MotionFit& fit, Features& feature
                     fit.delay_periods.deviation));
     return;
   }
+  if (evidence.told.link && !knows_stiffness(fit)) {
+    features.not_judged.emplace_back("delay: the motion does not tell it from the spring");
+    return;
+  }
   features[Feature::kDelay] = Observation{
       fit.delay_periods.value - *evidence.told.delay_periods,
       std::hypot(kDelayTolerance_periods, fit.delay_periods.deviation),
@@ -92,7 +100,7 @@ void add_delay(const Evidence& evidence, const MotionFit& fit, Features& feature
 
 void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& features) {
   if (!evidence.told.link) return;
-  if (!fit.stiffness_scale || fit.stiffness_scale->deviation > kKnownShare * fit.stiffness_scale->value) {
+  if (!knows_stiffness(fit)) {
     features.not_judged.emplace_back("stiffness: the motion does not show it");
     return;
   }
