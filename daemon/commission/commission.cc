@@ -45,6 +45,13 @@ void require_commissionable(const JointConfig& joint) {
   if (controller.encoder_side == EncoderSide::kLink)
     throw InputError(joint.name +
                      ": encoder_side = \"link\": \"motor\" is allowed: the motion of the motor is measured");
+  if (const auto* const simulated = std::get_if<SimulatedDrive>(&joint.drive)) {
+    const auto& gear = simulated->actuator.plant.effects.transmission;
+    if (gear && gear->lost_motion.width_rad == 0.0)
+      throw InputError(joint.name +
+                       ": joint.simulated.spring: lost_motion_rad = 0: above 0 is allowed, such as 0.0003: "
+                       "commissioning measures a gear with the lost motion of its catalogue");
+  }
   if (joint.loop.homing.required)
     throw InputError(
         joint.name +
