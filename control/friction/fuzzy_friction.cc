@@ -32,4 +32,11 @@ double FuzzyFriction::torque_Nm(const FrictionParameters& friction, double veloc
   return (zero_weight * friction.static_Nm + (1.0 - zero_weight) * moving_Nm) * sign(velocity_rad_s);
 }
 
+double FuzzyFriction::largest_viscous_Nms_rad() const noexcept {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rule_count); ++i)
+    largest = std::max(largest, rules[i].friction.viscous_Nms_rad);
+  return largest;
+}
+
 }  // namespace strainwave

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "control/table/ts_plant.h"
+#include "control/table/positive_definite.h"
 
 namespace strainwave {
 
@@ -99,7 +99,23 @@ SpringBox spring_box(const GainTable& table, const BoxCell& cell) {
           cell.link_inertia_kgm2,
           cell.stiffness_Nm_rad,
           table.box.damping_Nms_rad,
-          {0.0, largest_viscous_Nms_rad(table.friction)}};
+          {0.0, table.friction.largest_viscous_Nms_rad()}};
+}
+
+// Rule 0 has no friction: A = [1 h 0; 0 1 h; 0 0 1], B = [0, h^2 / 2 J, h / J].
+bool proves_slow_part(const FeedbackGains& gains, const PlantIdentity& plant) {
+  const Bounded h = plant.period_s;
+  BoundedMatrix A(ProofMatrix::Identity(kMaxStates, kMaxStates));
+  A.set(0, 1, h);
+  A.set(1, 2, h);
+  BoundedMatrix B(kMaxStates, 1);
+  B.set(1, 0, Bounded(0.5) * h * h / plant.inertia_kgm2);
+  B.set(2, 0, h / plant.inertia_kgm2);
+  const BoundedMatrix P(gains.lyapunov(0));
+  const BoundedMatrix H = A + B * BoundedMatrix(ProofMatrix(gains.gain(0)));
+  const BoundedMatrix fall = P - H.transpose() * (P * H);
+  return test_positive_definite(P.value, P.error, kMaxStates).certain &&
+         test_positive_definite(fall.value, fall.error, kMaxStates).certain;
 }
 
 BoxReport certify_box(const GainTable& table) {

@@ -31,6 +31,10 @@ inline constexpr int kMostBoxInequalities = 120000;
 /// Proves the box of `table`, in which find_defect() finds nothing.
 BoxReport certify_box(const GainTable& table);
 
+/// Of a controller with an integrator: V = x' P_0 x, by which anti-windup tells the integral's slow part (scheduled_controller.h), falls under
+/// rule 0 on the rigid joint of `plant` without delay or friction.
+bool proves_slow_part(const FeedbackGains& gains, const PlantIdentity& plant);
+
 /// The joints of `cell`, with the box's motor (the table's inertia where it is rigid), damping and rules.
 SpringBox spring_box(const GainTable& table, const BoxCell& cell);
 

@@ -5,7 +5,7 @@
 //   Jm wm' = u - b wm + K s + D v          wm = thm',   s = thl - thm,   v = s'
 //   Jl wl' = -K s - D v
 //
-// Static and Coulomb friction are taken away by what is fed forward, as on the rigid joint (ts_plant.h); around any equilibrium a
+// Static and Coulomb friction are taken away by what is fed forward, as on the rigid joint (design/gains/ts_plant.h); around any equilibrium a
 // spring of several slopes is a K between its least and its largest. A rigid joint is the motor alone, without s and v. State of the plant
 // and of the loop, delay d:
 //
@@ -18,7 +18,7 @@
 //   z+ = z + a (y - z),   integral+ = integral + h y
 //
 // a = 1 at the motor: z is the last reading, and its velocity that of two readings; at the link a = velocity_share() (link_velocity.h), and
-// a (y - z) / h what it makes of them. So StateEstimator has it, and ScheduledController the law, to the last term. The exponential is summed
+// a (y - z) / h what it makes of them. So JointReading has it, and ScheduledController the law, to the last term. The exponential is summed
 // as a Taylor series; what is left out of it is bounded with the weighted norm max_i sum_j |M_ij| d_j / d_i.
 #pragma once
 

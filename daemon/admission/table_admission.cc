@@ -15,9 +15,7 @@
 
 #include "control/joint/joint_catalogue.h"
 #include "control/table/box_certificate.h"
-#include "control/table/cost_certificate.h"
 #include "control/table/spring_certificate.h"
-#include "control/table/ts_plant.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"
 
@@ -38,22 +36,20 @@ constexpr double kTolerance = 1e-9;
 // last digit.
 constexpr double kStructuralDamping = 0.01;
 
-// The anti-windup takes its shares from P of these gains, which no cell of the box proves.
-TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const PlantIdentity& plant,
-                         const FuzzyFriction& friction) {
-  const CertificateReport report = certify(gains, plant, friction);
-  if (report.certified) return {};
+// No cell of the box proves what anti-windup takes of these gains.
+TableVerdict judge_antiwindup(const char* which, const FeedbackGains& gains, const PlantIdentity& plant) {
+  if (gains.has_integrator == 0 || proves_slow_part(gains, plant)) return {};
   return {
       Reason::kTableNotCertified,
-      std::string(which) + " gains " + std::string(gains.controller.view()) + ": margin " +
-          describe(report.worst) +
-          ": stability is not proved for this joint; design the table for it with strainwave-design gains"};
+      std::string(which) + " gains " + std::string(gains.controller.view()) +
+          ": P of rule 0 does not fall on this joint, by which anti-windup works; design the table for it "
+          "with strainwave-design gains"};
 }
 
 // Over the slopes, the extremes of viscous friction, and every gain of both controllers.
 WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
   const std::vector<GainRow> gains = gains_of(table);
-  const double most_viscous_Nms_rad = largest_viscous_Nms_rad(table.friction);
+  const double most_viscous_Nms_rad = table.friction.largest_viscous_Nms_rad();
   WorstCorner worst;
   for (const double stiffness :
        {link.spring.stiffness_1_Nm_rad, link.spring.stiffness_2_Nm_rad, link.spring.stiffness_3_Nm_rad}) {
@@ -178,9 +174,9 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
                 note_of(table)};
   // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
-  TableVerdict verdict = judge_gains("primary", table.primary, plant, table.friction);
+  TableVerdict verdict = judge_antiwindup("primary", table.primary, plant);
   if (verdict.reason != Reason::kAccepted) return verdict;
-  verdict = judge_gains("fallback", table.fallback, plant, table.friction);
+  verdict = judge_antiwindup("fallback", table.fallback, plant);
   if (verdict.reason != Reason::kAccepted) return verdict;
   if (joint.link) verdict = judge_on_spring(table, joint);
   if (verdict.reason != Reason::kAccepted) return verdict;

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "base/input_error.h"
-#include "control/table/ts_plant.h"
 #include "design/gains/controller_lmi.h"
 #include "design/gains/euler_plant.h"
+#include "design/gains/ts_plant.h"
 
 namespace strainwave {
 

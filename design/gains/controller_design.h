@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "control/table/cost_certificate.h"
 #include "control/table/gain_table.h"
+#include "design/gains/cost_certificate.h"
 #include "design/gains/sdp_solver.h"
 
 namespace strainwave {

@@ -11,8 +11,8 @@
 
 #include "base/input_error.h"
 #include "control/joint/gear_catalogue.h"
-#include "control/table/ts_plant.h"
 #include "design/gains/lmi.h"
+#include "design/gains/ts_plant.h"
 
 namespace strainwave {
 
@@ -180,7 +180,7 @@ SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, dou
       std::min({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
   box.stiffness_Nm_rad.to =
       std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
-  box.viscous_Nms_rad.to = largest_viscous_Nms_rad(friction);
+  box.viscous_Nms_rad.to = friction.largest_viscous_Nms_rad();
   return box;
 }
 

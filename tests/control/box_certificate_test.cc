@@ -10,7 +10,6 @@
 #include "base/input_error.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/table/gain_table_json.h"
-#include "control/table/ts_plant.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/reference_joint.h"
 
@@ -76,7 +75,7 @@ void expect_every_loop_inside_the_unit_circle(const GainTable& table) {
     const double Jl = any(box.link_inertia_kgm2);
     const double Jm = box.motor_inertia_kgm2;
     const double D = any(box.damping_Nms_rad);
-    const double b = any({0.0, largest_viscous_Nms_rad(table.friction)});
+    const double b = any({0.0, table.friction.largest_viscous_Nms_rad()});
     // Motor and link positions and velocities, and the torque: d/dt.
     Matrix5 M = Matrix5::Zero();
     M.row(0) << 0, 1, 0, 0, 0;

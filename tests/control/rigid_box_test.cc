@@ -11,7 +11,6 @@
 #include "base/input_error.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/table/gain_table_json.h"
-#include "control/table/ts_plant.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/reference_joint.h"
 
@@ -58,12 +57,16 @@ TEST(RigidBox, VOfARigidJointFallsInEveryPeriodOfTheLoopThatRuns) {
         const double share = any(0.0, 1.0);
         const GainRow F =
             share * gains[random() % gains.size()] + (1.0 - share) * gains[random() % gains.size()];
-        const SampledDynamics plant =
-            sampled_dynamics(table.plant, any(0.0, largest_viscous_Nms_rad(table.friction)), true);
+        const double viscous = any(1e-3, table.friction.largest_viscous_Nms_rad());
+        const double rate_1_s = viscous / table.plant.inertia_kgm2;
+        const double h = table.plant.period_s;
+        const double by_speed_s = -std::expm1(-rate_1_s * h) / rate_1_s;
         torques.insert(torques.begin(),
                        F(0) * x(0) + F(1) * x(1) + F(2) * (x(1) - before) / table.plant.period_s);
         before = x(1);
-        x = plant.A * x + plant.B * torques.back();
+        x = StateVector(
+            x(0) + h * x(1), x(1) + by_speed_s * x(2) + (h - by_speed_s) / viscous * torques.back(),
+            std::exp(-rate_1_s * h) * x(2) + by_speed_s / table.plant.inertia_kgm2 * torques.back());
         torques.pop_back();
         least_fall = std::min(least_fall, 1.0 - level() / V);
       }

@@ -13,7 +13,6 @@
 #include "control/joint/joint_measurement.h"
 #include "control/joint/link_velocity.h"
 #include "control/scheduled_controller.h"
-#include "control/table/ts_plant.h"
 
 namespace strainwave {
 namespace {
@@ -71,15 +70,13 @@ TEST(SpringPlant, WithoutASpringTheMotorIsTheRigidJointOfItsInertia) {
   SpringPlant plant = kJoint;
   plant.stiffness_Nm_rad = 0.0;
   plant.damping_Nms_rad = 0.0;
-  PlantIdentity rigid;
-  rigid.inertia_kgm2 = plant.motor_inertia_kgm2;
-  rigid.period_s = kPeriod_s;
-  const SampledDynamics expected = sampled_dynamics(rigid, plant.viscous_Nms_rad, true);
+  const double rate_1_s = plant.viscous_Nms_rad / plant.motor_inertia_kgm2;
+  const double by_speed_s = -std::expm1(-rate_1_s * kPeriod_s) / rate_1_s;
   const ProofMatrix actual = sampled(plant).value;
-  EXPECT_NEAR(actual(0, 1), expected.A(1, 2), 1e-18);
-  EXPECT_NEAR(actual(1, 1), expected.A(2, 2), 1e-15);
-  EXPECT_NEAR(actual(0, 4), expected.B(1), 1e-18);
-  EXPECT_NEAR(actual(1, 4), expected.B(2), 1e-15);
+  EXPECT_NEAR(actual(0, 1), by_speed_s, 1e-15);
+  EXPECT_NEAR(actual(1, 1), std::exp(-rate_1_s * kPeriod_s), 1e-15);
+  EXPECT_NEAR(actual(0, 4), (kPeriod_s - by_speed_s) / plant.viscous_Nms_rad, 1e-13);
+  EXPECT_NEAR(actual(1, 4), by_speed_s / plant.motor_inertia_kgm2, 1e-15);
 }
 
 // Where all inertia is taken together the joint is the rigid one, whatever the spring: its centre moves as a joint of Jm + Jl does.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/table/cost_certificate.h"
+#include "design/gains/cost_certificate.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/reference_joint.h"
 

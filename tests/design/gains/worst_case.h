@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "control/table/ts_plant.h"
+#include "design/gains/ts_plant.h"
 #include "design/gains/controller_design.h"
 
 namespace strainwave {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/cost_certificate.h"
+#include "design/gains/cost_certificate.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "control/table/ts_plant.h"
+#include "design/gains/ts_plant.h"
 #include "tests/support/reference_joint.h"
 
 namespace strainwave {

@@ -42,7 +42,4 @@ int plant_rule_count(const FuzzyFriction& friction) noexcept;
 /// Viscous coefficient of a plant rule: 0 for rule 0 ("zero velocity"), that of temperature rule j-1 otherwise.
 double plant_rule_viscous_Nms_rad(const FuzzyFriction& friction, int rule) noexcept;
 
-/// The largest of them.
-double largest_viscous_Nms_rad(const FuzzyFriction& friction) noexcept;
-
 }  // namespace strainwave

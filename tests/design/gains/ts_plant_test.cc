@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/ts_plant.h"
+#include "design/gains/ts_plant.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the design's matrix inequalities promise, checked with every rounding bounded: the gains stabilise the sampled and held joint for any
 // time-varying weights, right or wrong, and bound the cost. That joint has no delay and an exact velocity: what is proved of the loop
-// that the daemon closes is another statement (control/table/box_certificate.h). The daemon checks both: the anti-windup takes its shares from
-// P_0. Not real-time.
+// that the daemon closes is another statement (control/table/box_certificate.h), and the one that the daemon checks. Not real-time.
 //
 // With A_i, B_i rule i of the plant under a zero-order hold, H_ij = A_i + B_i F_j and r the decay rate:
 //
@@ -28,7 +27,7 @@
 
 #include "control/table/gain_table.h"
 #include "control/table/positive_definite.h"
-#include "control/table/ts_plant.h"
+#include "design/gains/ts_plant.h"
 
 namespace strainwave {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/cost_certificate.h"
+#include "design/gains/cost_certificate.h"
 
 #include <array>
 #include <cmath>

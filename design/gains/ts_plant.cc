@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/ts_plant.h"
+#include "design/gains/ts_plant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,13 +73,6 @@ int plant_rule_count(const FuzzyFriction& friction) noexcept {
 
 double plant_rule_viscous_Nms_rad(const FuzzyFriction& friction, int rule) noexcept {
   return rule == 0 ? 0.0 : friction.rules[static_cast<std::size_t>(rule - 1)].friction.viscous_Nms_rad;
-}
-
-double largest_viscous_Nms_rad(const FuzzyFriction& friction) noexcept {
-  double largest = 0.0;
-  for (int rule = 0; rule < plant_rule_count(friction); ++rule)
-    largest = std::max(largest, plant_rule_viscous_Nms_rad(friction, rule));
-  return largest;
 }
 
 }  // namespace strainwave
