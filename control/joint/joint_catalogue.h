@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joints whose friction the catalogue knows, by the name of their model or their gear's, and whether a table declares more than they
-// have. The catalogue's files are compiled in, so that the daemon needs none. Not real-time. Source: data/friction_parameters.csv, Zhao
-// (2006), Table 2; data/rhs17_datasheet.csv, his Appendix A.
-//
-// Friction is compensated towards the target, from either side: more of it than the joint has drives the joint instead of freeing it.
+// The joints whose friction the catalogue knows, by the name of their model or their gear's. The catalogue's files are compiled in, so that
+// the daemon needs none. Not real-time. Source: data/friction_parameters.csv, Zhao (2006), Table 2; data/rhs17_datasheet.csv, his
+// Appendix A.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "control/friction/friction.h"
-#include "control/friction/fuzzy_friction.h"
 
 namespace strainwave {
 
@@ -40,10 +36,5 @@ const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear);
 
 /// The Stribeck curve of the catalogue's friction, joint side: 20 RPM at the motor, exponent 2 (data/README.md).
 StribeckShape source_stribeck_shape(double gear_ratio);
-
-/// Where between rest and 10 rad/s, at a temperature of its range, `friction` (which must have passed find_defect()) is more than twice
-/// `joint`'s: the worst such place by temperature, velocity, torque and what is allowed, in words; or nothing.
-std::optional<std::string> find_excess_friction(const FuzzyFriction& friction, const CatalogueJoint& joint,
-                                                double gear_ratio);
 
 }  // namespace strainwave

@@ -22,11 +22,8 @@ constexpr double kMaxPeriod_s = 1.0;
 constexpr double kMaxTorque_Nm = 1e5;
 constexpr double kMaxViscous_Nms_rad = 1e5;
 // Of the torque limit: a joint that needs more to break away has less left for motion than friction takes; the coldest rule of the
-// catalogue's joint needs 0.17. It also keeps what the law's compensation reverses by within what the motor can give.
+// catalogue's joint needs 0.17.
 constexpr double kMaxStaticShare = 0.5;
-// Static friction over Coulomb's: what the law pushes by at rest must be left, once the joint moves, in proportion to what holds it
-// back. Fits of the catalogue have 1.2 (cold) to 2.7 (warm).
-constexpr double kMaxStaticRatio = 5.0;
 // Slower than any joint can be told to move: an encoder of a million counts passes one in six seconds.
 constexpr double kMinVelocityWidth_rad_s = 1e-6;
 constexpr double kMaxVelocity_rad_s = 1e6;
@@ -134,11 +131,6 @@ void inspect_rule_friction(TableInspector& inspector, const FrictionParameters& 
                         table_number(most_Nm) +
                         ", half of torque_limit_Nm, or friction takes more than it leaves");
   inspector.in_range(key + "coulomb_Nm", friction.coulomb_Nm, 0.0, friction.static_Nm);
-  inspector.require(friction.static_Nm <= kMaxStaticRatio * friction.coulomb_Nm,
-                    key + "static_Nm = " + table_number(friction.static_Nm) + ": must be at most " +
-                        table_number(kMaxStaticRatio) +
-                        " times coulomb_Nm = " + table_number(friction.coulomb_Nm) +
-                        ", or the push that breaks the joint away throws it");
   inspector.in_range(key + "viscous_Nms_rad", friction.viscous_Nms_rad, 0.0, kMaxViscous_Nms_rad);
 }
 

@@ -13,7 +13,6 @@
 #include <sstream>
 #include <vector>
 
-#include "control/joint/joint_catalogue.h"
 #include "control/table/box_certificate.h"
 #include "control/table/spring_certificate.h"
 #include "lcmtypes/gain_table_message.h"
@@ -102,15 +101,6 @@ TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) 
   return {};
 }
 
-// Friction is fed forward beside what is certified: it must be the joint's own, or it drives the joint.
-TableVerdict judge_friction(const GainTable& table) {
-  const CatalogueJoint* joint = find_catalogue_joint(table.plant.joint_model.view());
-  if (joint == nullptr) return {};
-  if (const auto more = find_excess_friction(table.friction, *joint, table.plant.gear_ratio))
-    return {Reason::kTableIdentity, *more};
-  return {};
-}
-
 // The smaller of the two holds. Certified is what happens below it, so that a smaller one takes no proof away; it may take the torque
 // that the cold joint's friction needs.
 std::string which_torque_limit_holds(const GainTable& table, double torque_limit_Nm) {
@@ -166,8 +156,6 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   }
   TableVerdict identity = judge_identity(table, joint);
   if (identity.reason != Reason::kAccepted) return identity;
-  TableVerdict friction = judge_friction(table);
-  if (friction.reason != Reason::kAccepted) return friction;
   if (!joint.law_acts)
     return {Reason::kAccepted,
             "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +

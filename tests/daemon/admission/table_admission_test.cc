@@ -168,21 +168,6 @@ TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
   EXPECT_NE(verdict.text.find("static_Nm"), std::string::npos) << verdict.text;
 }
 
-TEST_F(TableAdmission, RefusesSeveralTimesTheFrictionOfTheJointsModelByItsPlace) {
-  for (const auto& [static_Nm, coulomb_Nm] : {std::pair{16.9, 3.4}, {12.0, 3.0}, {8.0, 8.0}, {16.9, 16.9}}) {
-    for (TemperatureRule& rule : table_.friction.rules) {
-      rule.friction.static_Nm = static_Nm;
-      rule.friction.coulomb_Nm = coulomb_Nm;
-    }
-    const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
-    EXPECT_EQ(verdict.reason, Reason::kTableIdentity) << static_Nm << ", " << coulomb_Nm;
-    EXPECT_NE(verdict.text.find(" rad/s: must be at most "), std::string::npos) << verdict.text;
-    EXPECT_NE(verdict.text.find("rhs17-6006"), std::string::npos) << verdict.text;
-  }
-  table_.plant.joint_model = joint_.joint_model = FixedString<32>("another");
-  EXPECT_EQ(judge(), Reason::kAccepted) << "the catalogue has no joint of this name";
-}
-
 TEST_F(TableAdmission, TheDigestNamesTheContent) {
   const std::int64_t digest = table_digest(table_);
   EXPECT_NE(digest, 0);
