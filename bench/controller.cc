@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // bench/controller: what the control law of one joint costs beside the exponentials that it cannot avoid.
-// The law: six rules (five over temperature, one for zero velocity), integrator, friction compensation, over
+// The law: six rules (five over temperature, one for zero velocity), integrator, over
 // a joint that follows a sine. Its exponentials: the five memberships over temperature when the temperature
 // is new, and one over velocity; they are timed with the very arguments that the law gives them. Both sides
 // run in alternating slices; the ratio of the medians is the figure.
@@ -35,7 +35,7 @@ double temperature_C(int sample) {
   return -10.0 + 0.05 * sample;
 }
 
-std::vector<ControllerInput> sine(bool planned) {
+std::vector<ControllerInput> sine(bool jumps) {
   std::vector<ControllerInput> inputs(kSamples);
   for (int k = 0; k < kSamples; ++k) {
     ControllerInput& input = inputs[static_cast<std::size_t>(k)];
@@ -45,8 +45,8 @@ std::vector<ControllerInput> sine(bool planned) {
     input.joint_position_rad = input.setpoint_position_rad + 1e-4 * std::sin(7.0 * phase + 0.3);
     input.joint_velocity_rad_s = input.setpoint_velocity_rad_s + 1e-3 * std::cos(7.0 * phase);
     input.torque_limit_Nm = 34.0;
-    input.planned = planned;
-    input.planned_torque_Nm = planned ? 5.0 * std::sin(3.0 * phase) : 0.0;
+    if (jumps) input.jumped_from_rad = std::sin(phase - 2.0 * std::numbers::pi / kSamples);
+    input.feedforward_torque_Nm = 5.0 * std::sin(3.0 * phase);
   }
   return inputs;
 }
@@ -92,10 +92,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void compare(const char* name, bool planned, int temperature_every) {
+void compare(const char* name, bool jumps, int temperature_every) {
   const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
   ScheduledController controller(table.primary, table.friction, table.plant);
-  const std::vector<ControllerInput> inputs = sine(planned);
+  const std::vector<ControllerInput> inputs = sine(jumps);
   const std::vector<double> arguments = arguments_of_law(table.friction, inputs, temperature_every);
   std::vector<double> law_ns;
   std::vector<double> exponentials_ns;
@@ -112,8 +112,8 @@ void compare(const char* name, bool planned, int temperature_every) {
 }  // namespace strainwave
 
 int main() {
-  strainwave::compare("planned motion, new temperature every step", true, 1);
-  strainwave::compare("unplanned, a setpoint jump and temperature every step", false, 1);
-  strainwave::compare("planned motion, new temperature every 10th step", true, 10);
+  strainwave::compare("planned motion, new temperature every step", false, 1);
+  strainwave::compare("a setpoint jump and a new temperature every step", true, 1);
+  strainwave::compare("planned motion, new temperature every 10th step", false, 10);
   return 0;
 }

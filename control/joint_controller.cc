@@ -222,8 +222,7 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   input.joint_velocity_rad_s = reading_.velocity_rad_s();
   input.setpoint_position_rad = plan_.place_rad();
   input.setpoint_velocity_rad_s = reading_.planned_velocity_rad_s();
-  input.planned = true;
-  input.planned_torque_Nm = plan_.torque_Nm(joint());
+  input.feedforward_torque_Nm = plan_.torque_Nm(joint());
   input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(reading_.velocity_rad_s());
   input.torque_min_Nm = -config_.motor.available_Nm(-reading_.velocity_rad_s());

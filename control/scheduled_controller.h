@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scheduled state feedback with integrator, friction compensation, saturation and anti-windup: the control
-// law of one joint. Real-time safe: nothing here allocates or throws.
+// Scheduled state feedback with integrator, saturation and anti-windup: the control law of one joint. Real-time safe: nothing here
+// allocates or throws.
 //
 //   e = position - setpoint
 //   x = [ integral e, e, velocity - setpoint velocity ]
-//   d = sign(-e): towards the setpoint
 //
 //   law                    l = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x
 //   feedback               u = l, or with a lead of n periods on a joint with a spring
 //                          u = l + n (l - l one period ago)
-//   friction compensation
-//     moving               f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
-//     at rest              f = (1 + margin) Fs(T) d
-//   torque
-//     step reference       torque = clamp(u + f + known load)
-//     planned motion       torque = clamp(u + planned torque)
+//   torque                 clamp(u + feed-forward)
 //
-// Source: Zhao (2006), (3-9)..(3-35), section 5.4. d is where the joint must go, and a joint at rest needs all of Fs to move again: he says
-// neither. Controllers without temperature (one rule) have f = 0.
+// Source: Zhao (2006), (3-9)..(3-35), section 5.4. His compensation of friction without a plan is in sim/studies/loop_controllers.h.
 //
 // The integral has two duties, of which only the slow one is wanted. With P the Lyapunov matrix of rule 0,
 //   V(x) = P_00 slow^2 + (a form in e and velocity alone)
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
-// A new setpoint and a saturated torque keep `slow`: for a given e and velocity that costs least, and nothing winds up. While the torque is
+// A setpoint that jumps and a saturated torque keep `slow`: for a given e and velocity that costs least, and nothing winds up. While the torque is
 // limited V can rise: the certificate is of the law within its limits (docs/certificate.md).
 //
 // A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h). The first sample, and the first after a jump of x or
@@ -42,14 +35,11 @@ struct ControllerInput {
   double joint_position_rad = 0.0;
   double joint_velocity_rad_s = 0.0;
   double setpoint_position_rad = 0.0;
-  double setpoint_velocity_rad_s = 0.0;  ///< 0 for a step reference
-  bool planned = false;                  ///< the setpoint's motion is planned and comes with its torque
-  /// What the plan needs: inertia, friction, load; without a plan what is known of the load.
-  double planned_torque_Nm = 0.0;
-  /// Nearer than this to the setpoint a joint at rest is left alone.
-  double rest_zone_rad = 1e-6;
-  double torque_limit_Nm = 0.0;  ///< >= 0
-  int elapsed_periods = 1;       ///< >= 1, since the last sample
+  double setpoint_velocity_rad_s = 0.0;     ///< 0 for a step reference
+  double feedforward_torque_Nm = 0.0;       ///< what the motion needs: inertia, friction, load
+  std::optional<double> jumped_from_rad{};  ///< the setpoint one period ago, where it has jumped since
+  double torque_limit_Nm = 0.0;             ///< >= 0
+  int elapsed_periods = 1;                  ///< >= 1, since the last sample
   /// What the supply leaves of it at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
   double torque_max_Nm = std::numeric_limits<double>::infinity();
@@ -67,7 +57,7 @@ struct ControllerOutput {
 class ScheduledController {
  public:
   ScheduledController() = default;
-  /// `gains` and `friction` must have passed find_defect(). What the law needs of them is copied. `lead_periods` >= 0.
+  /// `gains` and the memberships of `friction` must have passed find_defect(). What the law needs of them is copied. `lead_periods` >= 0.
   ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction, const PlantIdentity& plant,
                       double lead_periods = 0.0) noexcept;
 
@@ -91,27 +81,20 @@ class ScheduledController {
   std::optional<double> last_law_Nm() const noexcept { return last_law_Nm_; }
 
   const TemperatureWeights& temperature_weights() const noexcept { return weights_; }
-  /// Friction at the last temperature; the table's, also for controllers that do not use it.
-  const FrictionParameters& friction() const noexcept { return blended_friction_; }
   double integral_rad_s() const noexcept { return integral_rad_s_; }
   /// The integral's part of the torque of a joint at rest: what it has learnt of load and friction.
   double integral_torque_Nm() const noexcept;
 
  private:
   struct Terms {
-    double law_Nm, feedforward_Nm, integral_gain, zero_weight;
+    double law_Nm, integral_gain, zero_weight;
   };
   Terms evaluate(const ControllerInput& input) const noexcept;
-  double friction_torque_Nm(const ControllerInput& input, double zero_weight) const noexcept;
   void keep_slow_part(const ControllerInput& input) noexcept;
   double fast_part(const ControllerInput& input, double setpoint_position_rad) const noexcept;
   double lead_in(const ControllerInput& input) const noexcept;
 
-  /// What layer 1 blends, a column per temperature rule: static_Nm, coulomb_Nm, viscous_Nms_rad, then the
-  /// gain at high velocity. One array, so that the blend is one sum of vectors.
-  using Blend = Eigen::Matrix<double, 6, 1>;
-  Eigen::Matrix<double, 6, kMaxTemperatureRules> rules_ =
-      Eigen::Matrix<double, 6, kMaxTemperatureRules>::Zero();
+  std::array<GainRow, kMaxTemperatureRules> rules_{};  ///< F_i
   TemperatureMemberships memberships_;
   ZeroVelocityWeight zero_weight_;
   GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; of a controller without temperature its only gain
@@ -121,15 +104,12 @@ class ScheduledController {
   bool has_integrator_ = false;
 
   TemperatureWeights weights_;
-  FrictionParameters blended_friction_;           ///< at the last temperature
   GainRow high_velocity_gain_ = GainRow::Zero();  ///< sum_i w_i F_i at the last temperature
   double position_share_s_ = 0.0;                 ///< P_01 / P_00
   double velocity_share_s2_ = 0.0;                ///< P_02 / P_00
   double integral_rad_s_ = 0.0;
   double slow_rad_s_ = 0.0;  ///< of the last sample
   std::optional<double> last_law_Nm_;
-  double last_setpoint_rad_ = 0.0;
-  bool has_setpoint_ = false;
   bool saturated_ = false;  ///< at the last sample
 };
 

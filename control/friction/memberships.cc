@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "control/friction/fuzzy_friction.h"
 
@@ -19,27 +20,21 @@ TemperatureMemberships::TemperatureMemberships(const FuzzyFriction& friction) no
   }
 }
 
-double TemperatureMemberships::evaluate(double temperature_C,
-                                        TemperatureWeights& memberships) const noexcept {
-  const auto count = static_cast<std::size_t>(count_);
-  std::array<double, kMaxTemperatureRules>& mu = memberships.weight;
+// Relative to the nearest rule's, which has 1, so that far from every centre they are never 0/0.
+TemperatureWeights TemperatureMemberships::weights(double temperature_C) const noexcept {
+  TemperatureWeights result;
+  result.count = count_;
+  const std::span mu = std::span(result.weight).first(static_cast<std::size_t>(count_));
   const double clamped_C = std::clamp(temperature_C, min_C_, max_C_);
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < mu.size(); ++i) {
     const double distance = (clamped_C - center_C_[i]) * reciprocal_width_[i];
     mu[i] = distance * distance;
     nearest = std::min(nearest, mu[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) mu[i] = std::exp(nearest - mu[i]);
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += mu[i];
-  memberships.count = count_;
-  return 1.0 / sum;
-}
-
-TemperatureWeights TemperatureMemberships::weights(double temperature_C) const noexcept {
-  TemperatureWeights result;
-  result.scale_by(evaluate(temperature_C, result));
+  for (double& weight : mu) sum += weight = std::exp(nearest - weight);
+  for (double& weight : mu) weight *= 1.0 / sum;
   return result;
 }
 

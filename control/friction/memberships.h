@@ -18,10 +18,6 @@ inline constexpr int kMaxTemperatureRules = 16;
 struct TemperatureWeights {
   std::array<double, kMaxTemperatureRules> weight{};
   std::int32_t count = 0;
-
-  void scale_by(double factor) noexcept {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) weight[i] *= factor;
-  }
 };
 
 class TemperatureMemberships {
@@ -33,11 +29,6 @@ class TemperatureMemberships {
   /// Normalised memberships at `temperature_C`, which is
   /// clamped to the table's range first; it must not be NaN.
   TemperatureWeights weights(double temperature_C) const noexcept;
-
-  /// The same before they are normalised: relative to the nearest rule's, which has 1, so that far from every
-  /// centre they are never 0/0. Returns the factor that normalises them. For who has other work to do while
-  /// the division takes its time.
-  double evaluate(double temperature_C, TemperatureWeights& memberships) const noexcept;
 
  private:
   std::int32_t count_ = 0;

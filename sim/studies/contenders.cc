@@ -58,9 +58,7 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
 
 JointPlantConfig with_declared_friction(JointPlantConfig plant, const GainTable& table,
                                         double temperature_C) {
-  ScheduledController law(table.primary, table.friction, table.plant);
-  law.set_temperature(temperature_C);
-  plant.joint.friction.asymptote = law.friction();
+  plant.joint.friction.asymptote = table.friction.blend(table.friction.weights(temperature_C));
   plant.joint.friction.amplitude = {};
   return plant;
 }

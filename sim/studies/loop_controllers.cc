@@ -2,8 +2,20 @@
 #include "sim/studies/loop_controllers.h"
 
 #include <cmath>
+#include <utility>
+
+#include "control/units.h"
 
 namespace strainwave {
+
+namespace {
+
+// More than the table's static friction to break away: its fit is no better than some per cent, and a joint that is pushed too weakly stays
+// where it is until the integral has grown.
+constexpr double kBreakaway = 1.0 + 0.1;
+constexpr double kRestZone_rad = 1e-6;
+
+}  // namespace
 
 JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) noexcept {
   JointMeasurement measurement;
@@ -15,9 +27,28 @@ JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) 
   return measurement;
 }
 
+FeedbackLoopController::FeedbackLoopController(const FeedbackGains& gains, const FuzzyFriction& friction,
+                                               const PlantIdentity& plant, double torque_limit_Nm) noexcept
+    : controller_(gains, friction, plant),
+      table_(friction),
+      friction_(friction.blend(controller_.temperature_weights())),
+      compensates_(gains.scheduled()),
+      difference_(plant.period_s),
+      torque_limit_Nm_(torque_limit_Nm) {}
+
+double FeedbackLoopController::friction_torque_Nm(const ControllerInput& input) const noexcept {
+  const double way_rad = input.setpoint_position_rad - input.joint_position_rad;
+  if (input.joint_velocity_rad_s == 0.0)
+    return std::abs(way_rad) <= kRestZone_rad ? 0.0 : sign(way_rad) * kBreakaway * friction_.static_Nm;
+  const double zero_weight = table_.velocity.zero_weight(input.joint_velocity_rad_s);
+  return sign(way_rad) * zero_weight * friction_.static_Nm +
+         sign(input.joint_velocity_rad_s) * (1.0 - zero_weight) * friction_.coulomb_Nm;
+}
+
 double FeedbackLoopController::torque_Nm(const LoopSample& sample) noexcept {
   if (std::isfinite(sample.temperature_C) && sample.temperature_C != temperature_C_) {
     controller_.set_temperature(sample.temperature_C);
+    friction_ = table_.blend(controller_.temperature_weights());
     temperature_C_ = sample.temperature_C;
   }
   const double difference_rad_s = difference_.step(sample.joint_position_rad);
@@ -26,12 +57,17 @@ double FeedbackLoopController::torque_Nm(const LoopSample& sample) noexcept {
   input.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(difference_rad_s);
   input.setpoint_position_rad = sample.setpoint_position_rad;
   input.torque_limit_Nm = torque_limit_Nm_;
+  const double before_rad =
+      std::exchange(last_setpoint_rad_, sample.setpoint_position_rad).value_or(sample.joint_position_rad);
+  if (before_rad != sample.setpoint_position_rad) input.jumped_from_rad = before_rad;
+  if (compensates_) input.feedforward_torque_Nm = friction_torque_Nm(input);
   return controller_.step(input).torque_Nm;
 }
 
 void FeedbackLoopController::reset() noexcept {
   controller_.reset();
   difference_.reset();
+  last_setpoint_rad_.reset();
 }
 
 double PidLoopController::torque_Nm(const LoopSample& sample) noexcept {

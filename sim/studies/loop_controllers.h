@@ -32,23 +32,35 @@ class BackwardDifference {
   std::optional<double> last_;
 };
 
-/// C1..C4: scheduled (or temperature-free) state feedback, exactly as control/ has it. Velocity is the exact
-/// one where the plant offers it, otherwise the backward difference.
+/// C1..C4: scheduled (or temperature-free) state feedback, as control/ has it. Velocity is the exact one where the plant offers it, otherwise
+/// the backward difference. There is no plan: those with temperature compensate friction towards the setpoint.
+///
+///   d = sign(setpoint - position)
+///   moving    f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
+///   at rest   f = 1.1 Fs(T) d, farther than 1e-6 rad from the setpoint
+///
+/// Source: Zhao (2006), (3-9)..(3-35), section 5.4. d is where the joint must go, and a joint at rest needs all of Fs to move again: he says
+/// neither.
 class FeedbackLoopController final : public LoopController {
  public:
   /// `gains` is the table's primary or fallback set; `torque_limit_Nm` may be infinite.
   FeedbackLoopController(const FeedbackGains& gains, const FuzzyFriction& friction,
-                         const PlantIdentity& plant, double torque_limit_Nm) noexcept
-      : controller_(gains, friction, plant), difference_(plant.period_s), torque_limit_Nm_(torque_limit_Nm) {}
+                         const PlantIdentity& plant, double torque_limit_Nm) noexcept;
 
   double torque_Nm(const LoopSample& sample) noexcept override;
   void reset() noexcept override;
 
  private:
+  double friction_torque_Nm(const ControllerInput& input) const noexcept;
+
   ScheduledController controller_;
+  FuzzyFriction table_;
+  FrictionParameters friction_;  ///< at the last temperature
+  bool compensates_;
   BackwardDifference difference_;
   double torque_limit_Nm_;
   double temperature_C_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last layer-1 evaluation
+  std::optional<double> last_setpoint_rad_;
 };
 
 /// Gains of that PID on e = setpoint - position.

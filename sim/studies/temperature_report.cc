@@ -187,12 +187,10 @@ TextTable friction_table(const GainTable& gains, const JointPlantConfig& plant) 
     const std::string at = " at " + number(speed_rad_s, 3) + " rad/s";
     for (const char* what : {"true (N.m)", "table (N.m)", "error (urad)"}) table.header.push_back(what + at);
   }
-  ScheduledController law(gains.primary, gains.friction, gains.plant);
   JointModel model;
   model.stribeck = gains.friction.velocity.stribeck();
   for (const double temperature_C : kStudyTemperatures_C) {
-    law.set_temperature(temperature_C);
-    model.friction = law.friction();
+    model.friction = gains.friction.blend(gains.friction.weights(temperature_C));
     std::vector<std::string> fields = {number(temperature_C, 3)};
     for (const double speed_rad_s : kSpeeds_rad_s) {
       const double true_Nm =

@@ -17,7 +17,6 @@ ControllerInput input_at(double error_rad, double velocity_rad_s) {
   ControllerInput input;
   input.joint_position_rad = error_rad;
   input.joint_velocity_rad_s = velocity_rad_s;
-  input.planned = true;
   input.torque_limit_Nm = 34.0;
   return input;
 }

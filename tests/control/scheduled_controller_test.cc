@@ -96,6 +96,7 @@ TEST(ScheduledController, ANewSetpointDoesNotRaiseTheSlowPartOfTheLyapunovFuncti
   const double before = slow(controller.integral_rad_s(), 1e-3, 0.0);
   ControllerInput jumped = input_at(1e-3, 0.0);
   jumped.setpoint_position_rad = -0.7;
+  jumped.jumped_from_rad = 0.0;
   controller.step(jumped);
   const double used = controller.integral_rad_s() - table().plant.period_s * 0.701;
   EXPECT_NEAR(slow(used, 0.701, 0.0), before, 1e-12);
@@ -110,30 +111,18 @@ TEST(ScheduledController, ATemperatureChangeMovesTheTorqueByNoMoreThanFrictionAn
   }
 }
 
-TEST(ScheduledController, APlannedMotionGetsItsTorqueAndNoFrictionCompensation) {
+TEST(ScheduledController, AMotionGetsItsTorque) {
   ScheduledController controller = scheduled();
   ControllerInput input = input_at(0.0, 1.0);
   input.setpoint_velocity_rad_s = 1.0;
-  input.planned = true;
-  input.planned_torque_Nm = 12.5;
+  input.feedforward_torque_Nm = 12.5;
   const ControllerOutput output = controller.step(input);
   EXPECT_DOUBLE_EQ(output.torque_Nm, 12.5);
   EXPECT_DOUBLE_EQ(output.feedforward_torque_Nm, 12.5);
 }
 
-TEST(ScheduledController, LeavesAJointAloneThatRestsNearTheSetpoint) {
-  ScheduledController controller = scheduled();
-  ControllerInput input = input_at(9e-6, 0.0);
-  input.rest_zone_rad = 1e-5;
-  EXPECT_EQ(controller.step(input).feedforward_torque_Nm, 0.0);
-  input.joint_position_rad = 1.1e-5;
-  EXPECT_LT(controller.step(input).feedforward_torque_Nm, -1.0);
-}
-
-// Planned: the law's feedback alone.
-ControllerInput planned_at(double error_rad, double velocity_rad_s, int elapsed_periods = 1) {
+ControllerInput input_over(double error_rad, double velocity_rad_s, int elapsed_periods = 1) {
   ControllerInput input = input_at(error_rad, velocity_rad_s, 1e3);
-  input.planned = true;
   input.elapsed_periods = elapsed_periods;
   return input;
 }
@@ -153,7 +142,7 @@ TEST(ScheduledController, ALeadAddsWhatTheLawHasChangedByInSoManyPeriods) {
   double last_Nm = 0.0;
   for (int k = 0; k < 300; ++k) {
     const int periods = elapsed(random);
-    const ControllerInput input = planned_at(error(random), velocity(random), periods);
+    const ControllerInput input = input_over(error(random), velocity(random), periods);
     // What begins anew has no change: at first, and after each of these.
     const bool anew = k % 50 == 0;
     if (k == 50) led.interrupt();
@@ -172,27 +161,28 @@ TEST(ScheduledController, ALeadAddsWhatTheLawHasChangedByInSoManyPeriods) {
 
 TEST(ScheduledController, ALeadFollowsNoJumpOfTheSetpoint) {
   ScheduledController led = leading(2.0);
-  led.step(planned_at(1e-3, 0.0));
+  led.step(input_over(1e-3, 0.0));
   ScheduledController law = leading(0.0);
-  law.step(planned_at(1e-3, 0.0));
+  law.step(input_over(1e-3, 0.0));
   ControllerInput jumped = input_at(1e-3, 0.0, 1e3);
   jumped.setpoint_position_rad = -0.2;
+  jumped.jumped_from_rad = 0.0;
   EXPECT_EQ(led.step(jumped).torque_Nm, law.step(jumped).torque_Nm);
-  EXPECT_NE(led.step(planned_at(2e-3, 0.0)).torque_Nm, law.step(planned_at(2e-3, 0.0)).torque_Nm);
+  EXPECT_NE(led.step(input_over(2e-3, 0.0)).torque_Nm, law.step(input_over(2e-3, 0.0)).torque_Nm);
 }
 
 // While the law changes: the integral takes nothing of what the lead makes of that.
 TEST(ScheduledController, AGainChangeWithALeadMakesNoTorqueStepAndTheLeadGoesOn) {
   for (const double lead_before : {2.0, 0.0}) {
     ScheduledController outgoing = leading(lead_before);
-    for (int k = 0; k < 5; ++k) outgoing.step(planned_at(1e-4 * k, 0.02 * k));
-    const ControllerInput input = planned_at(5e-4, 0.1);
+    for (int k = 0; k < 5; ++k) outgoing.step(input_over(1e-4 * k, 0.02 * k));
+    const ControllerInput input = input_over(5e-4, 0.1);
     ScheduledController incoming(table().fallback, table().friction, table().plant, 2.0);
     const std::optional<double> last_law_Nm = outgoing.last_law_Nm();
     const double torque_Nm = outgoing.step(input).torque_Nm;
     incoming.carry_over(input, torque_Nm, last_law_Nm);
     EXPECT_NEAR(incoming.step(input).torque_Nm, torque_Nm, 1e-9);
-    const ControllerInput next = planned_at(6e-4, 0.12);
+    const ControllerInput next = input_over(6e-4, 0.12);
     if (lead_before == 0.0) continue;
     EXPECT_NEAR(incoming.step(next).torque_Nm, outgoing.step(next).torque_Nm, 0.3);
   }

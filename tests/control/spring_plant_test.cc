@@ -188,7 +188,6 @@ TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
         input.joint_position_rad = reading.position_rad();
         input.joint_velocity_rad_s = reading.velocity_rad_s();
         input.setpoint_position_rad = setpoint_rad;
-        input.planned = true;
         input.torque_limit_Nm = 1e15;
         under_way.push_back(law.step(input).torque_Nm);
         const double acting_Nm = under_way.front();
