@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 namespace strainwave {
 namespace {
 
@@ -39,6 +41,23 @@ TEST(Histogram, PercentilesLieInTheirBucketAndGrowWithTheFraction) {
   EXPECT_LE(percentile_ns(counts, 0.5), 500e3 * 1.19);
   EXPECT_LE(percentile_ns(counts, 0.5), percentile_ns(counts, 0.99));
   EXPECT_EQ(percentile_ns(HistogramCounts{}, 0.5), 0.0);
+}
+
+TEST(Histogram, CanBeReadWhileItIsWritten) {
+  Histogram histogram;
+  std::thread writer([&] {
+    for (int i = 0; i < 100'000; ++i) histogram.add(i % 100'000);
+  });
+  std::int64_t total = 0;
+  while (total < 100'000) {
+    const HistogramCounts counts = histogram.counts();
+    std::int64_t sum = 0;
+    for (const std::int64_t count : counts) sum += count;
+    ASSERT_GE(sum, total);
+    total = sum;
+    std::this_thread::yield();
+  }
+  writer.join();
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "base/broadcast_ring.h"
 #include "base/spsc_queue.h"
-#include "daemon/realtime/loop/histogram.h"
 
 namespace strainwave {
 namespace {
@@ -97,23 +96,6 @@ TEST(BroadcastRing, TheWriterDoesNotNoticeReadersThatNeverRead) {
   ASSERT_TRUE(ring->read(cursor, record, dropped));
   EXPECT_EQ(record.words[0], 84U);
   EXPECT_EQ(dropped, 84U);
-}
-
-TEST(Histogram, CanBeReadWhileItIsWritten) {
-  Histogram histogram;
-  std::thread writer([&] {
-    for (int i = 0; i < 100'000; ++i) histogram.add(i % 100'000);
-  });
-  std::int64_t total = 0;
-  while (total < 100'000) {
-    const HistogramCounts counts = histogram.counts();
-    std::int64_t sum = 0;
-    for (const std::int64_t count : counts) sum += count;
-    ASSERT_GE(sum, total);
-    total = sum;
-    std::this_thread::yield();
-  }
-  writer.join();
 }
 
 }  // namespace
