@@ -78,27 +78,6 @@ TEST(GearCatalogue, OrdersTorquesAndStiffnessWithinAGear) {
   }
 }
 
-// The higher ratio of a size is the stiffer and the stronger one.
-TEST(GearCatalogue, RelatesTheTwoRatiosOfASize) {
-  const auto file = read_file();
-  for (const double size : {14.0, 17.0, 20.0, 25.0, 32.0}) {
-    SCOPED_TRACE("size " + std::to_string(size));
-    const Cells& fast = file.at({size, 50.0});
-    const Cells& slow = file.at({size, 100.0});
-    for (const char* same : {"torque_1_Nm", "torque_2_Nm", "input_speed_limit_rpm",
-                             "wave_generator_inertia_kgm2", "accuracy_rad"})
-      EXPECT_EQ(fast.at(same), slow.at(same)) << same;
-    for (const char* more :
-         {"stiffness_1_Nm_rad", "stiffness_2_Nm_rad", "stiffness_3_Nm_rad", "rated_torque_Nm",
-          "average_torque_Nm", "repeated_peak_torque_Nm", "momentary_peak_torque_Nm"})
-      EXPECT_GT(slow.at(more), fast.at(more)) << more;
-    EXPECT_LT(slow.at("lost_motion_rad"), fast.at("lost_motion_rad"));
-    if (fast.contains("starting_torque_Ncm")) {
-      EXPECT_GT(fast.at("starting_torque_Ncm"), slow.at("starting_torque_Ncm"));
-    }
-  }
-}
-
 // What grows by a power of size, as geometry has it, shows a wrong unit or digit by a factor.
 TEST(GearCatalogue, HasTheUnitsThatItsColumnsName) {
   for (const auto& [key, cells] : read_file()) {

@@ -178,6 +178,25 @@ TEST_F(JointLoopOrders, OfAStandingJointThatIsPushedAreNotMistakenForAStuckSenso
   }
 }
 
+TEST(JointLoopMoves, GoAtTheCalmShareOfTheSpeedLimitUnlessTheyNameASpeed) {
+  BenchJoint joint = demo_joint();
+  joint.loop.move_speed_share = 0.25;
+  for (const double named_rad_s : {0.0, 5.0}) {
+    JointBench bench({joint});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(
+        bench.order(
+            0, Order{.kind = OrderKind::kSetpoint, .position_rad = 2.0, .speed_limit_rad_s = named_rad_s}),
+        Reason::kAccepted);
+    double fastest_rad_s = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      bench.step();
+      fastest_rad_s = std::max(fastest_rad_s, bench.state(0).setpoint_velocity_rad_s);
+    }
+    EXPECT_NEAR(fastest_rad_s, named_rad_s == 0.0 ? 0.25 * 6.0 : named_rad_s, 1e-9);
+  }
+}
+
 TEST(JointLoopNotices, TellOfATemperatureOutsideTheTable) {
   BenchJoint joint = demo_joint();
   joint.drive.ambient = TemperatureProfile::constant(60.0);
@@ -186,6 +205,16 @@ TEST(JointLoopNotices, TellOfATemperatureOutsideTheTable) {
   bench.run(0.1);
   EXPECT_TRUE(bench.has_notice(0, Notice::kTemperatureClamped));
   EXPECT_EQ(bench.state(0).gains_in_use, static_cast<int>(GainsInUse::kPrimary));
+}
+
+// Learning, which would take the load over, is frozen.
+TEST(JointLoopNotices, TellOfALoadThatHoldsTheJointOffItsPlaceForASecond) {
+  JointBench bench({demo_joint()});
+  ASSERT_EQ(bench.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);
+  bench.bring_to_hold(0);
+  bench.drive(0).simulated().set_load_torque_Nm(10.0);
+  EXPECT_GE(bench.step_until([&] { return bench.has_notice(0, Notice::kOffTarget); }, 3000), 1000);
+  EXPECT_EQ(bench.mode(0), Mode::kHolding);
 }
 
 TEST(JointLoopNotices, TellOfATorqueLimit) {
