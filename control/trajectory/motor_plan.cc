@@ -88,7 +88,7 @@ MotorPlanner::MotorPlanner(const MotorPlannerConfig& config) noexcept
       spread_periods_(whole_spread(config)),
       first_(spread_periods_ / 2, config.period_s),
       second_(spread_periods_ - spread_periods_ / 2, config.period_s) {
-  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxPlanDelay / 2);
+  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
   reset(0.0);
 }
 
@@ -178,7 +178,7 @@ MotorPlan MotorPlanner::plan() noexcept {
   plan.acting_end_position_rad = next_.motor_position_rad;
   const bool rests = begin.motor_velocity_rad_s == 0.0 && next_.motor_velocity_rad_s == 0.0 &&
                      next_.motor_position_rad == begin.motor_position_rad;
-  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxPlanDelay + 1) : 0;
+  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxControlDelay + 1) : 0;
   return plan;
 }
 

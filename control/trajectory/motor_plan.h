@@ -25,14 +25,12 @@
 #include <array>
 #include <optional>
 
+#include "control/joint/joint_measurement.h"
 #include "control/joint/link_model.h"
 #include "control/trajectory/moving_mean.h"
 #include "control/trajectory/reference_shaper.h"
 
 namespace strainwave {
-
-/// The largest delay of MotorPlanner::step(), late readings included, in periods.
-inline constexpr int kMaxPlanDelay = 16;
 
 struct MotorPlannerConfig {
   double period_s = 0.001;  ///< > 0
@@ -132,8 +130,8 @@ class MotorPlanner {
   LinkState wanted_;          ///< at the sample to come
   double jerk_rad_s3_ = 0.0;  ///< of the link's motion, there
   LinkState next_;            ///< the model, there
-  std::array<LinkState, kMaxPlanDelay + 2>
-      states_{};                        ///< the model's, newest first: of now, of the last period ...
+  /// The model's, newest first: of now, of the last period ...; as far back as delay and late readings together.
+  std::array<LinkState, 2 * kMaxControlDelay + 2> states_{};
   double torque_Nm_ = 0.0;              ///< of this period
   double middle_velocity_rad_s_ = 0.0;  ///< the model's motor, half-way through it
   bool exhausted_ = false;              ///< motion and regulator asked for more torque than there was

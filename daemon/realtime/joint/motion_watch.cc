@@ -18,10 +18,9 @@ constexpr double kForgets = 0.1;
 constexpr double kPushed = 0.5;
 /// The last count is found, or given up, in less.
 constexpr double kOffTarget_s = 1.0;
-/// Ten times longer than a soft wall takes to call for the notice: what it pushes with before is not what the joint carries.
-constexpr double kUsualLoad_s = 0.5;
-/// A wall of 200 N.m/rad pushes a joint out in 70 ms, which then runs out and swings for some 0.3 s. What takes longer is no blow.
-constexpr double kLongestYield_s = 0.5;
+/// A wall of 200 N.m/rad pushes a joint out in 70 ms, which then runs out and swings for some 0.3 s. What takes longer is no blow, and what a
+/// joint carries is its mean load over as long.
+constexpr double kLongestBlow_s = 0.5;
 
 }  // namespace
 
@@ -31,7 +30,7 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
   begin_span(joint_position_rad, now_ns);
   moved_before_rad_ = 0.0;
   light_ns_ = now_ns;
-  judged_ns_ = now_ns - nanoseconds(kUsualLoad_s);  // the first load counts wholly
+  judged_ns_ = now_ns - nanoseconds(kLongestBlow_s);  // the first load counts wholly
   yields_since_ns_ = now_ns;
   yielded_ns_.reset();
   high_load_ = false;
@@ -86,13 +85,13 @@ bool MotionWatch::off_target(bool holding, double distance_rad, std::int64_t now
 }
 
 bool MotionWatch::has_just_yielded(std::int64_t now_ns) const noexcept {
-  return yielded_ns_ && seconds(now_ns - *yielded_ns_) < kLongestYield_s;
+  return yielded_ns_ && seconds(now_ns - *yielded_ns_) < kLongestBlow_s;
 }
 
 bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexcept {
   const double load_Nm = motion.load_Nm;
   high_load_ = std::abs(load_Nm) > loads_.notice_Nm;
-  const double share = std::min(1.0, seconds(now_ns - judged_ns_) / kUsualLoad_s);
+  const double share = std::min(1.0, seconds(now_ns - judged_ns_) / kLongestBlow_s);
   judged_ns_ = now_ns;
   if (!high_load_) usual_load_Nm_ += share * (load_Nm - usual_load_Nm_);
   const bool yields = motion.phase == MotionPhase::kYielding;
@@ -102,7 +101,7 @@ bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexc
   else
     yields_since_ns_ = now_ns;
   return seconds(now_ns - light_ns_) > config_.overload_s ||
-         seconds(now_ns - yields_since_ns_) > kLongestYield_s;
+         seconds(now_ns - yields_since_ns_) > kLongestBlow_s;
 }
 
 }  // namespace strainwave

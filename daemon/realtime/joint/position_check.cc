@@ -10,19 +10,22 @@ namespace strainwave {
 
 namespace {
 
+/// A count, where the sensor has finer ones or none.
+constexpr double kFinestCount_rad = 1e-5;
 /// The worst reading of a working sensor: quantisation at both ends, and sampling that is not exactly periodic.
 constexpr double kJumpFactor = 2.0;
 constexpr double kJumpCounts = 4.0;
-constexpr double kJumpFloor_rad = 1e-6;
 /// A joint may have more friction than its table says.
 constexpr double kFrictionFactor = 1.5;
 /// Motion owed before the sensor is called stuck.
 constexpr double kStuckCounts = 10.0;
-constexpr double kStuckFloor_rad = 1e-4;
 /// After its last change the joint may still be coming to rest under another torque.
 constexpr int kSettlingPeriods = 5;
 
 }  // namespace
+
+PositionCheck::PositionCheck(const PositionCheckConfig& config) noexcept
+    : config_(config), count_rad_(std::max(config.resolution_rad, kFinestCount_rad)) {}
 
 bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven,
                               std::int64_t now_ns) noexcept {
@@ -43,8 +46,7 @@ double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {
 }
 
 bool PositionCheck::jumped(double position_rad, double elapsed_s) const noexcept {
-  const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s +
-                             kJumpCounts * config_.resolution_rad + kJumpFloor_rad;
+  const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s + kJumpCounts * count_rad_;
   return std::abs(position_rad - last_position_rad_) > allowed_rad;
 }
 
@@ -76,7 +78,7 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_
   }
   owed_velocity_rad_s_ += std::copysign(excess_Nm, up_Nm - down_Nm) / inertia_kgm2_ * elapsed_s;
   owed_motion_rad_ += owed_velocity_rad_s_ * elapsed_s;
-  return std::abs(owed_motion_rad_) > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
+  return std::abs(owed_motion_rad_) > kStuckCounts * count_rad_;
 }
 
 void PositionCheck::hold_extremes(double torque_Nm) noexcept {

@@ -27,7 +27,7 @@ struct PositionCheckConfig {
 
 class PositionCheck {
  public:
-  explicit PositionCheck(const PositionCheckConfig& config) noexcept : config_(config) {}
+  explicit PositionCheck(const PositionCheckConfig& config) noexcept;
 
   /// Inertia and the largest static friction of the joint, of its gain table.
   void set_joint(double inertia_kgm2, double static_friction_Nm) noexcept {
@@ -52,6 +52,7 @@ class PositionCheck {
   static constexpr std::size_t kLastingPeriods = 8;
 
   PositionCheckConfig config_;
+  double count_rad_;
   double inertia_kgm2_ = 1.0;
   double static_friction_Nm_ = 0.0;
   double last_position_rad_ = 0.0;
