@@ -37,15 +37,6 @@ constexpr double joint_viscous_Nms_rad_from_motor_Ncm_per_rpm(double motor_visco
   return gear_ratio * gear_ratio * kNmPerNcm / kRadPerSecondPerRpm * motor_viscous_Ncm_per_rpm;
 }
 
-/// Inverses of the above, for tables printed beside the catalogue.
-constexpr double motor_torque_Ncm_from_joint_Nm(double joint_torque_Nm, double gear_ratio) {
-  return joint_torque_Nm / (gear_ratio * kNmPerNcm);
-}
-constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_viscous_Nms_rad,
-                                                              double gear_ratio) {
-  return joint_viscous_Nms_rad / (gear_ratio * gear_ratio * kNmPerNcm / kRadPerSecondPerRpm);
-}
-
 /// -1, 0 or 1.
 constexpr double sign(double value) {
   return static_cast<double>(value > 0.0) - static_cast<double>(value < 0.0);

@@ -36,15 +36,6 @@ FrictionParameters friction_parameters_from_json(StrictObject& object) {
   return parameters;
 }
 
-ordered_json friction_law_to_json(const FrictionLaw& law) {
-  return {{"asymptote", friction_parameters_to_json(law.over_temperature.asymptote)},
-          {"amplitude", friction_parameters_to_json(law.over_temperature.amplitude)},
-          {"reference_C", law.over_temperature.reference_C},
-          {"decay_C", law.over_temperature.decay_C},
-          {"stribeck_velocity_rad_s", law.stribeck.velocity_rad_s},
-          {"stribeck_exponent", law.stribeck.exponent}};
-}
-
 FrictionLaw friction_law_from_json(StrictObject& object) {
   FrictionLaw law;
   law.over_temperature.asymptote = part_from_json(object.object("asymptote"));

@@ -14,8 +14,6 @@ nlohmann::ordered_json friction_parameters_to_json(const FrictionParameters& par
 /// Reads their keys of `object`, which may have more. Throws InputError.
 FrictionParameters friction_parameters_from_json(StrictObject& object);
 
-nlohmann::ordered_json friction_law_to_json(const FrictionLaw& law);
-
 /// Reads the law's keys of `object`, which may have more. Throws InputError.
 FrictionLaw friction_law_from_json(StrictObject& object);
 

@@ -2,9 +2,6 @@
 #include "control/friction/fuzzy_friction.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "control/units.h"
 
 namespace strainwave {
 
@@ -24,12 +21,6 @@ FrictionParameters FuzzyFriction::blend(const TemperatureWeights& weights) const
     blended.viscous_Nms_rad += weights.weight[i] * rules[i].friction.viscous_Nms_rad;
   }
   return blended;
-}
-
-double FuzzyFriction::torque_Nm(const FrictionParameters& friction, double velocity_rad_s) const noexcept {
-  const double zero_weight = velocity.zero_weight(velocity_rad_s);
-  const double moving_Nm = friction.coulomb_Nm + friction.viscous_Nms_rad * std::abs(velocity_rad_s);
-  return (zero_weight * friction.static_Nm + (1.0 - zero_weight) * moving_Nm) * sign(velocity_rad_s);
 }
 
 double FuzzyFriction::largest_viscous_Nms_rad() const noexcept {

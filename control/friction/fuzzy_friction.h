@@ -51,9 +51,6 @@ struct FuzzyFriction {
   /// Layer 1: the friction parameters blended by `weights`.
   FrictionParameters blend(const TemperatureWeights& weights) const noexcept;
 
-  /// Layer 2: friction torque in N.m at `velocity_rad_s`, odd in velocity, 0 at rest.
-  double torque_Nm(const FrictionParameters& friction, double velocity_rad_s) const noexcept;
-
   /// The largest viscous coefficient of a rule, >= 0.
   double largest_viscous_Nms_rad() const noexcept;
 };

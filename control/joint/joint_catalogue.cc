@@ -56,12 +56,6 @@ const std::vector<CatalogueJoint>& joint_catalogue() {
   return joints;
 }
 
-const CatalogueJoint* find_catalogue_joint(std::string_view model) {
-  for (const CatalogueJoint& joint : joint_catalogue())
-    if (joint.model == model) return &joint;
-  return nullptr;
-}
-
 const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear) {
   for (const CatalogueJoint& joint : joint_catalogue())
     if (joint.gear == gear) return &joint;

@@ -30,8 +30,7 @@ struct CatalogueJoint {
 /// Every joint; the first is that of Zhao (2006), the reference of the design.
 const std::vector<CatalogueJoint>& joint_catalogue();
 
-/// The joint of this model, or with this gear; null when the catalogue has none.
-const CatalogueJoint* find_catalogue_joint(std::string_view model);
+/// The joint with this gear; null when the catalogue has none.
 const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear);
 
 /// The Stribeck curve of the catalogue's friction, joint side: 20 RPM at the motor, exponent 2 (data/README.md).

@@ -17,12 +17,4 @@ std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<dou
                                                          const Eigen::Matrix<double, n, 1>& B,
                                                          const Eigen::Matrix<double, n, 1>& W, double R);
 
-/// F of u = F x with that cost:  F = -(R + B'PB)^-1 B'PA.
-template <int n>
-Eigen::Matrix<double, 1, n> optimal_gain(const Eigen::Matrix<double, n, n>& A,
-                                         const Eigen::Matrix<double, n, 1>& B, double R,
-                                         const Eigen::Matrix<double, n, n>& P) {
-  return -(B.transpose() * P * A) / (R + B.dot(P * B));
-}
-
 }  // namespace strainwave

@@ -22,6 +22,15 @@ using nlohmann::ordered_json;
 
 namespace {
 
+ordered_json friction_law_to_json(const FrictionLaw& law) {
+  return {{"asymptote", friction_parameters_to_json(law.over_temperature.asymptote)},
+          {"amplitude", friction_parameters_to_json(law.over_temperature.amplitude)},
+          {"reference_C", law.over_temperature.reference_C},
+          {"decay_C", law.over_temperature.decay_C},
+          {"stribeck_velocity_rad_s", law.stribeck.velocity_rad_s},
+          {"stribeck_exponent", law.stribeck.exponent}};
+}
+
 // Temperatures of the source's catalogue, Zhao (2006), Table 1.
 constexpr double kSourceTemperatureMin_C = -10.0;
 constexpr double kSourceTemperatureMax_C = 40.0;

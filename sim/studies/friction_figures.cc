@@ -44,10 +44,10 @@ Points column(const CsvTable& table, std::size_t index) {
 }
 
 double motor_Ncm(double joint_Nm) {
-  return motor_torque_Ncm_from_joint_Nm(joint_Nm, kReferenceGearRatio);
+  return joint_Nm / joint_torque_Nm_from_motor_Ncm(1.0, kReferenceGearRatio);
 }
 double motor_viscous(double joint_Nms_rad) {
-  return motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(joint_Nms_rad, kReferenceGearRatio);
+  return joint_Nms_rad / joint_viscous_Nms_rad_from_motor_Ncm_per_rpm(1.0, kReferenceGearRatio);
 }
 
 Figure torque_figure(const Catalogue& catalogue) {
@@ -162,7 +162,10 @@ Figure velocity_figure(const FuzzyFriction& friction) {
         return stribeck_friction_Nm(joint.friction.at(temperature_C), joint.stribeck, speed(rpm));
       };
       const auto model = [&](double rpm) {
-        return friction.torque_Nm(friction.blend(friction.weights(temperature_C)), speed(rpm));
+        const FrictionParameters blended = friction.blend(friction.weights(temperature_C));
+        const double zero_weight = friction.velocity.zero_weight(speed(rpm));
+        return zero_weight * blended.static_Nm +
+               (1.0 - zero_weight) * (blended.coulomb_Nm + blended.viscous_Nms_rad * speed(rpm));
       };
       const double from_rpm = 1e-6;
       result.series.push_back(

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRatio = 50.0;
 
 const CatalogueJoint& catalogue_joint() {
-  return *find_catalogue_joint("rhs17-6006");
+  return joint_catalogue().front();
 }
 
 TEST(JointCatalogue, HasTheCataloguesFrictionAtTheJointsSide) {
@@ -26,7 +26,6 @@ TEST(JointCatalogue, HasTheCataloguesFrictionAtTheJointsSide) {
   EXPECT_EQ(catalogue_joint().friction_at(95.0, kRatio).coulomb_Nm, warm.coulomb_Nm);
   EXPECT_EQ(catalogue_joint().friction_at(-60.0, kRatio).coulomb_Nm,
             catalogue_joint().friction_at(-10.0, kRatio).coulomb_Nm);
-  EXPECT_EQ(find_catalogue_joint("another"), nullptr);
 }
 
 TEST(JointCatalogue, HasTheActuatorsOwnInertiaAndFindsItByItsGear) {

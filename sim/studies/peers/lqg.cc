@@ -52,7 +52,7 @@ Eigen::RowVector4d regulator(const Eigen::Matrix<double, 5, 5>& sampled, const L
   const double R = 1.0 / squared(weights.torque_Nm);
   const auto P = solve_riccati<4>(A, B, W, R);
   if (!P) throw InputError("LQG: the regulator's Riccati equation has no solution");
-  return optimal_gain<4>(A, B, R, *P) * T;
+  return -(B.transpose() * *P * A) / (R + B.dot(*P * B)) * T;
 }
 
 // The filter's Riccati equation is the regulator's of the transposed plant.
