@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "control/joint_controller.h"
 #include "control/table/gain_table_json.h"
@@ -28,9 +29,10 @@ inline JointControllerConfig realistic_config() {
 class ControlledJoint {
  public:
   explicit ControlledJoint(const JointPlantConfig& plant = realistic_plant(),
-                           const JointControllerConfig& config = realistic_config())
-      : plant_(plant), controller_(config) {
-    controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
+                           const JointControllerConfig& config = realistic_config(),
+                           const char* table = "rhs17-6006.json", double at_C = 20.0)
+      : temperature_C(at_C), plant_(plant), controller_(config) {
+    controller_.load(read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + table));
     plant_.set_ambient_temperature(temperature_C);
     controller_.start(plant_.measured_position_rad());
   }
@@ -50,13 +52,14 @@ class ControlledJoint {
   /// A joint of another kind goes on where the old one stands.
   void free() {
     JointPlantConfig plant = realistic_plant();
-    plant.initial_position_rad = plant_.state().position_rad;
+    plant.initial_position_rad = position_rad();
     plant_ = JointPlant(plant);
   }
   JointController& controller() { return controller_; }
-  double position_rad() const { return plant_.state().position_rad; }
+  /// The link's, where there is a spring.
+  double position_rad() const { return plant_.link_state().position_rad; }
 
-  double temperature_C = 20.0;
+  double temperature_C;
   double load_torque_Nm = 0.0;
 
  private:

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "control/joint_controller.h"
-#include "control/table/gain_table_json.h"
-#include "sim/joint/reference_plant.h"
+#include "tests/control/controlled_joint.h"
 #include "tests/support/allocation_trap.h"
 
 namespace strainwave {
@@ -42,33 +40,12 @@ JointPlantConfig with_friction(JointPlantConfig plant, double scale) {
   return plant;
 }
 
-class Loop {
+/// On `plant`, told that it is `told`.
+class Loop : public testing::ControlledJoint {
  public:
-  /// On `plant`, told that it is `told`.
-  Loop(const JointPlantConfig& plant, const JointPlantConfig& told, double temperature_C,
+  Loop(const JointPlantConfig& plant, const JointPlantConfig& told, double at_C,
        const char* table = "total-0.178/c4.json")
-      : plant_(plant), controller_(config_for(told)), temperature_C_(temperature_C) {
-    controller_.load(read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + table));
-    plant_.set_ambient_temperature(temperature_C);
-    controller_.start(plant_.measured_position_rad());
-  }
-  JointStep step() {
-    plant_.set_ambient_temperature(temperature_C_);
-    JointMeasurement measurement;
-    measurement.joint_position_rad = plant_.measured_position_rad();
-    measurement.temperature_C = temperature_C_;
-    measurement.temperature_valid = true;
-    const JointStep result = controller_.step(measurement);
-    plant_.step(result.output.torque_Nm);
-    return result;
-  }
-  JointController& controller() { return controller_; }
-  double link_rad() const { return plant_.link_state().position_rad; }
-
- private:
-  JointPlant plant_;
-  JointController controller_;
-  double temperature_C_;
+      : ControlledJoint(plant, config_for(told), table, at_C) {}
 };
 
 struct Outcome {
@@ -86,15 +63,15 @@ Outcome move(Loop& loop, double target_rad) {
   double high = -1e9;
   for (int k = 0; k < 2000; ++k) {
     const JointStep step = loop.step();
-    outcome.overshoot_rad = std::max(outcome.overshoot_rad, loop.link_rad() - target_rad);
+    outcome.overshoot_rad = std::max(outcome.overshoot_rad, loop.position_rad() - target_rad);
     outcome.corrections = step.corrections;
     outcome.oscillates = step.oscillates;
     if (k < 1500) continue;
-    low = std::min(low, loop.link_rad());
-    high = std::max(high, loop.link_rad());
+    low = std::min(low, loop.position_rad());
+    high = std::max(high, loop.position_rad());
   }
   outcome.swing_at_rest_rad = high - low;
-  outcome.final_error_rad = loop.link_rad() - target_rad;
+  outcome.final_error_rad = loop.position_rad() - target_rad;
   return outcome;
 }
 
@@ -127,7 +104,7 @@ TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections
     if (corrections > 0) {
       EXPECT_EQ(step.ordered_reference.position_rad, 0.01);
     }
-    standing_rad = loop.link_rad();
+    standing_rad = loop.position_rad();
   }
   EXPECT_GT(corrections, 0) << "this friction needs one, or the test shows nothing";
   EXPECT_LE(corrections, 6);
@@ -174,11 +151,11 @@ TEST(JointControllerWithLink, AWeightThatItIsToldOfNeitherSagsNorHoldsTheLinkBes
       JointPlantConfig plant = plant_with(link);
       plant.effects.gravity = {10.0, -0.5};
       Loop loop(plant, plant, 0.0);
-      const double standing_rad = loop.link_rad();
+      const double standing_rad = loop.position_rad();
       for (int k = 0; k < 200; ++k) {
         loop.step();
         // The first torque comes a period late, and until then nothing but friction holds the joint.
-        EXPECT_NEAR(loop.link_rad(), standing_rad, 60e-6) << "at the start, period " << k;
+        EXPECT_NEAR(loop.position_rad(), standing_rad, 60e-6) << "at the start, period " << k;
       }
       const Outcome outcome = move(loop, standing_rad + target);
       EXPECT_LE(std::abs(outcome.final_error_rad), kBand_rad) << link << " " << target;
