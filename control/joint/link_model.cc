@@ -102,7 +102,7 @@ LinkGains LinkModel::regulate(double torque_limit_Nm, double period_s) const noe
   const Vector weights(weight(kLinkShare * wind_up_rad), weight(kSpeedShare * speed_rad_s),
                        weight(kMotorShare * wind_up_rad), weight(kSpeedShare * speed_rad_s));
   const double torque_weight = weight(torque_Nm);
-  const auto P = solve_riccati<4>(A, B, weights, torque_weight);
+  const auto P = solve_riccati(A, B, weights, torque_weight);
   assert(P);  // a spring and a torque on one of its ends can always be stabilised
   if (!P) return {};
   const Eigen::RowVector4d gains = B.transpose() * *P / (torque_weight + B.dot(*P * B));

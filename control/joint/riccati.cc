@@ -13,18 +13,15 @@ constexpr double kConverged = 1e-12;
 
 }  // namespace
 
-template <int n>
-std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<double, n, n>& A,
-                                                         const Eigen::Matrix<double, n, 1>& B,
-                                                         const Eigen::Matrix<double, n, 1>& W, double R) {
-  using Matrix = Eigen::Matrix<double, n, n>;
-  using Vector = Eigen::Matrix<double, n, 1>;
+std::optional<Eigen::MatrixXd> solve_riccati(const Eigen::MatrixXd& A, const Eigen::VectorXd& B,
+                                             const Eigen::VectorXd& W, double R) {
+  using Matrix = Eigen::MatrixXd;
   const Eigen::Index size = W.size();
   // In z, x = W^(-1/2) z, where the weights are one.
-  const Vector root = W.cwiseSqrt();
-  const Vector inverse = root.cwiseInverse();
+  const Eigen::VectorXd root = W.cwiseSqrt();
+  const Eigen::VectorXd inverse = root.cwiseInverse();
   Matrix step = root.asDiagonal() * A * inverse.asDiagonal();
-  const Vector input = root.asDiagonal() * B;
+  const Eigen::VectorXd input = root.asDiagonal() * B;
   Matrix G = input * input.transpose() / R;
   Matrix H = Matrix::Identity(size, size);
   for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
@@ -41,11 +38,5 @@ std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<dou
   }
   return std::nullopt;
 }
-
-template std::optional<Eigen::Matrix4d> solve_riccati<4>(const Eigen::Matrix4d&, const Eigen::Vector4d&,
-                                                         const Eigen::Vector4d&, double);
-template std::optional<Eigen::MatrixXd> solve_riccati<Eigen::Dynamic>(const Eigen::MatrixXd&,
-                                                                      const Eigen::VectorXd&,
-                                                                      const Eigen::VectorXd&, double);
 
 }  // namespace strainwave

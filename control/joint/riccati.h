@@ -11,10 +11,8 @@ namespace strainwave {
 
 /// Solves  P = A'PA - A'PB (R + B'PB)^-1 B'PA + W.  The least sum of x'Wx + u'Ru along x+ = A x + B u is then x0'P x0.
 /// A n x n, B n, W the diagonal of a positive matrix, R > 0. Nothing when (A, B) cannot be stabilised
-/// or the doubling does not converge. n: 4, or Eigen::Dynamic.
-template <int n>
-std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<double, n, n>& A,
-                                                         const Eigen::Matrix<double, n, 1>& B,
-                                                         const Eigen::Matrix<double, n, 1>& W, double R);
+/// or the doubling does not converge.
+std::optional<Eigen::MatrixXd> solve_riccati(const Eigen::MatrixXd& A, const Eigen::VectorXd& B,
+                                             const Eigen::VectorXd& W, double R);
 
 }  // namespace strainwave

@@ -155,8 +155,8 @@ double largest_cost(const ControllerProblem& problem, const Eigen::MatrixXd& P) 
 Units first_units(const ControllerProblem& problem) {
   const std::size_t middle = problem.A.size() / 2;
   const double rate = problem.decay_rate;
-  const auto riccati = solve_riccati<Eigen::Dynamic>(problem.A[middle] / rate, problem.B[middle] / rate,
-                                                     problem.state_weights, problem.input_weight);
+  const auto riccati = solve_riccati(problem.A[middle] / rate, problem.B[middle] / rate,
+                                     problem.state_weights, problem.input_weight);
   Units units;
   if (!riccati || !balance(riccati->diagonal(), largest_cost(problem, *riccati), units))
     balance(problem.state_weights, largest_cost(problem, problem.state_weights.asDiagonal()), units);

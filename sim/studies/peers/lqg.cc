@@ -50,7 +50,7 @@ Eigen::RowVector4d regulator(const Eigen::Matrix<double, 5, 5>& sampled, const L
   const Eigen::Vector4d W(1.0 / squared(weights.link_position_rad), 1.0 / squared(weights.velocity_rad_s),
                           1.0 / squared(weights.motor_position_rad), 1.0 / squared(weights.velocity_rad_s));
   const double R = 1.0 / squared(weights.torque_Nm);
-  const auto P = solve_riccati<4>(A, B, W, R);
+  const auto P = solve_riccati(A, B, W, R);
   if (!P) throw InputError("LQG: the regulator's Riccati equation has no solution");
   return -(B.transpose() * *P * A) / (R + B.dot(*P * B)) * T;
 }
@@ -64,8 +64,7 @@ Eigen::VectorXd kalman(const Eigen::Matrix<double, 5, 5>& sampled, const ServoJo
   noise << squared(position_rad), squared(velocity_rad_s), squared(position_rad), squared(velocity_rad_s),
       squared(weights.friction_change_Nm);
   const double reading = squared(joint.encoder_resolution_rad) / 12.0;
-  const auto P =
-      solve_riccati<Eigen::Dynamic>(sampled.transpose(), Eigen::VectorXd::Unit(5, 0), noise, reading);
+  const auto P = solve_riccati(sampled.transpose(), Eigen::VectorXd::Unit(5, 0), noise, reading);
   if (!P) throw InputError("LQG: the filter's Riccati equation has no solution");
   return P->col(0) / ((*P)(0, 0) + reading);
 }
