@@ -24,8 +24,9 @@ bool run(const std::string& commands) {
 
 bool make_adapter() {
   return run(
-      "ip link add lan0 type bridge; ip address add 192.168.7.1/24 dev lan0; ip link set lan0 up multicast "
-      "on; "
+      "ip link add lan0 type veth peer name lan1; ip address add 192.168.7.1/24 dev lan0; ip link set lan1 "
+      "up; "
+      "ip link set lan0 up multicast on; "
       "ip route add 239.255.76.67/32 dev lan0");
 }
 
