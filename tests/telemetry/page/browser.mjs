@@ -57,14 +57,6 @@ export async function widthWhenSmall(page) {
   return page.evaluate(() => document.documentElement.scrollWidth);
 }
 
-/** Megabytes of the page's JavaScript in use. */
-export async function memory_MB(page) {
-  const client = await page.createCDPSession();
-  await client.send('HeapProfiler.collectGarbage');
-  const {usedSize} = await client.send('Runtime.getHeapUsage');
-  return usedSize / 1e6;
-}
-
 /** Does what the parent says until it closes its end. */
 export async function obey(steps) {
   for await (const line of readline.createInterface({input: process.stdin})) {

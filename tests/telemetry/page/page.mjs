@@ -4,7 +4,7 @@
 //
 //   node page.mjs URL RECORDING-CSV RECORDING-MCAP HOSTILE-CSV SCREENSHOT-FOLDER
 import fs from 'node:fs';
-import {memory_MB, obey, openPage, problems, rowsOf, say, sleep, textOf, until, violationsOf, widthWhenSmall} from './browser.mjs';
+import {obey, openPage, problems, rowsOf, say, sleep, textOf, until, violationsOf, widthWhenSmall} from './browser.mjs';
 
 const [, , url, csv, mcap, hostile, pictures] = process.argv;
 const page = await openPage(url);
@@ -90,20 +90,5 @@ const steps = {
     say({status, answer, elements: await page.$$eval('#stop, #orders', (list) => list.length)});
   },
   async problems() { say({problems}); },
-  // Intervals between frames, and what the page holds.
-  async frames(seconds) {
-    const intervals = await page.evaluate((ms) => new Promise((done) => {
-      const seen = [];
-      const look = (now) => {
-        seen.push(now);
-        if (now - seen[0] < ms) requestAnimationFrame(look);
-        else done(seen.slice(1).map((time, i) => time - seen[i]));
-      };
-      requestAnimationFrame(look);
-    }), 1000 * Number(seconds)).then((list) => list.sort((a, b) => a - b));
-    const at = (share) => intervals[Math.min(intervals.length - 1, Math.floor(share * intervals.length))];
-    say({frames: intervals.length, median_ms: at(0.5), most_of_100_ms: at(0.99), longest_ms: at(1), above_20_ms: intervals.filter((ms) => ms > 20).length});
-  },
-  async memory() { say({used_MB: await memory_MB(page), joints: (await rows()).length}); },
 };
 await obey(steps);
