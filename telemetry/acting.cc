@@ -71,7 +71,7 @@ void Acting::take(const Page& page, const PageOrder& order, double now_s) {
 void Acting::obey(const Page& page, const PageOrder& order, double now_s) {
   if (!page.is_own)
     return answer(page.number,
-                  "orders are taken from the page of this server alone, opened at its own address", true);
+                  "commands are taken from the page of this server alone, opened at its own address", true);
   if (order.action == "open") return open(page, order);
   if (order.action == "stop") return stop(page);
   if (!open_.contains(page.number))
@@ -85,12 +85,12 @@ void Acting::obey(const Page& page, const PageOrder& order, double now_s) {
     return;
   }
   if (!order.joint || !order.quote)
-    return answer(page.number, "an order names its joint, and the session_id and challenge of its state",
+    return answer(page.number, "a command names its joint, and the session_id and challenge of its state",
                   true);
   if (order.action == "enable") return command(page.number, *order.joint, Action::kEnable, *order.quote);
   if (order.action == "hold") return command(page.number, *order.joint, Action::kHold, *order.quote);
   if (order.action == "jog") return jog(page.number, order, now_s);
-  answer(page.number, "the page orders open, stop, enable, hold, jog and jog-end alone", true);
+  answer(page.number, "the page may send open, stop, enable, hold, jog and jog-end alone", true);
 }
 
 void Acting::open(const Page& page, const PageOrder& order) {

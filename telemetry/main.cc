@@ -51,7 +51,7 @@ strainwave::ExitStatus serve(const Options& options) {
                      " is open to other machines: give --token-file FILE, or listen on 127.0.0.1");
   if (!is_loopback(address.host) && !options.key_file.empty())
     throw InputError(
-        "--key: orders of a page on another machine would not be encrypted: listen on "
+        "--key: commands of a page on another machine would not be encrypted: listen on "
         "127.0.0.1, and forward the port (ssh -L 8765:127.0.0.1:8765 HOST)");
   if (const auto defect = find_udpm_defect(options.lcm_url)) throw InputError("--lcm-url: " + *defect);
   wait_for_multicast(

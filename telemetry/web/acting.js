@@ -25,7 +25,7 @@ export class Acting {
 
   build() {
     this.stopButton = make('button', {id: 'stop', type: 'button', textContent: 'Stop all joints (space)'});
-    this.title = make('h2', {id: 'orders-title', textContent: 'Orders'});
+    this.title = make('h2', {id: 'orders-title', textContent: 'Commands'});
     this.enableButton = make('button', {id: 'enable', type: 'button', textContent: 'Enable'});
     this.holdButton = make('button', {id: 'hold', type: 'button', textContent: 'Hold'});
     this.speed = make('input', {id: 'jog-speed', type: 'range', min: '1', max: '100', value: '50'});
@@ -172,7 +172,7 @@ export class Acting {
   show() {
     const name = this.bench.chosen();
     const joint = this.bench.joints().get(name);
-    this.title.textContent = joint ? `Orders to ${name}` : 'Orders';
+    this.title.textContent = joint ? `Commands to ${name}` : 'Commands';
     for (const button of [this.enableButton, this.holdButton]) button.disabled = !joint;
     for (const button of this.jogButtons) button.disabled = !joint?.limits;
     if (!joint?.limits) return;
