@@ -120,8 +120,11 @@ void configure_supervision(SdoClient& client, const DriveConfig& config, std::ve
     report.push_back(client.who() +
                      ": the drive does not take 1016h: only the deadline of RPDO1 (1400h:05) tells it that "
                      "this daemon is gone");
-  client.write_verified(
-      {kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
+  const std::uint32_t heartbeat_ms = thousandths(config.drive_heartbeat_s);
+  if (!client.write_if_writable({kProducerHeartbeat_ms, heartbeat_ms, 2, ~0U, "the drive's heartbeat"}))
+    refuse(client,
+           "takes no heartbeat period of " + std::to_string(heartbeat_ms) +
+               " ms (1017h): give its own as drive_heartbeat_s; without a heartbeat it cannot be driven");
   if (!client.write_if_writable({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2,
                                  ~0U, "reaction to a lost connection"}))
     report.push_back(

@@ -60,6 +60,10 @@ double configure_torque(SdoClient& client, const DriveConfig& config, std::vecto
     refuse(client, "torque_limit_Nm = " + std::to_string(config.torque_limit_Nm) +
                        " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
                        " N.m at the joint, which is the drive's step");
+  if (config.torque_limit_Nm > rated_Nm * INT16_MAX / 1000.0)
+    refuse(client, "torque_limit_Nm = " + std::to_string(config.torque_limit_Nm) +
+                       " is more than 32.767 times the rated " + std::to_string(rated_Nm) +
+                       " N.m at the joint, which 6071h cannot hold: check both");
   limit_torque(client, scale.limit_per_mille(), config.drive_mode, report);
   return rated_Nm;
 }

@@ -57,6 +57,16 @@ TEST_F(Cia402LeanDrive, Without1016hNeedsTheDeadlineOfItsRpdo) {
   expect_mentions(neither.start_refusal(), {"takes neither 1016h", "nor 1400h:05", "nothing would stop it"});
 }
 
+TEST_F(Cia402LeanDrive, WithAHeartbeatOfItsOwnIsTakenWhenThatIsAsWanted) {
+  for (const std::int64_t period_ms : {50, 200}) {
+    DriveBench bench({bench_drive(3)});
+    bench.can().run_to(kBooted_ns);
+    store(bench, {0x1017, 0}, period_ms, can_nodes::Access::kReadOnly);
+    expect_mentions(bench.start_refusal(),
+                    {period_ms == 50 ? "accepted" : "(1017h): give its own as drive_heartbeat_s"});
+  }
+}
+
 TEST_F(Cia402LeanDrive, Without6007hSaysWhatIsToBeTried) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x6007 0" + std::string(kNoObject));

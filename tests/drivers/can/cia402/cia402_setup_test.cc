@@ -79,6 +79,13 @@ TEST(Cia402Setup, RefusesTorqueInTheWrongUnit) {
                   {"6076h", "rated_torque_unit = \"uNm\"", "would agree"});
 }
 
+TEST(Cia402Setup, RefusesALimitThatTheTargetTorqueCannotHold) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.torque_limit_Nm = 400.0;
+  expect_mentions(DriveBench({drive}).start_refusal(),
+                  {"torque_limit_Nm = 400", "32.767 times the rated 9.6", "6071h"});
+}
+
 TEST(Cia402Setup, RefusesADriveThatKeepsAnotherValueThanItWasGiven) {
   for (const char* lie : {"pretend 0x1016 1 0", "pretend 0x6007 0 0", "pretend 0x6072 0 999",
                           "pretend 0x1A00 1 0", "pretend 0x6061 0 8"}) {
@@ -91,8 +98,8 @@ TEST(Cia402Setup, RefusesADriveThatKeepsAnotherValueThanItWasGiven) {
 
 TEST(Cia402Setup, GivesTheDrivesReasonForARefusedObject) {
   DriveBench bench({bench_drive(3)});
-  bench.tell_node("refuse 0x1017 0 0x06020000");
-  expect_mentions(bench.start_refusal(), {"1017h:00", "no such object", "06020000h"});
+  bench.tell_node("refuse 0x1600 0 0x06020000");
+  expect_mentions(bench.start_refusal(), {"1600h:00", "no such object", "06020000h"});
 }
 
 TEST(Cia402Setup, NamesEveryDriveThatFails) {
