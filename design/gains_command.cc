@@ -95,6 +95,7 @@ void take_friction(const GainsOptions& options, RequestedJoint& joint) {
   if (!options.friction.empty()) {
     joint.rules = read_friction_rules(options.friction, ratio_of(options),
                                       options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
+    std::fputs(friction_doubt(joint.rules.friction, find_gear(options.gear)).c_str(), stderr);
     return;
   }
   if (options.gear.empty())

@@ -50,6 +50,21 @@ CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_
   return friction;
 }
 
+std::string friction_doubt(const FuzzyFriction& given, const Gear* gear) {
+  if (gear == nullptr) return "";
+  constexpr double kRoom_C = 20.0;
+  constexpr double kMostFactor = 10.0;
+  const auto coulomb_Nm = [](const FuzzyFriction& friction) {
+    return friction.blend(friction.weights(kRoom_C)).coulomb_Nm;
+  };
+  const double found_Nm = coulomb_Nm(given);
+  const double usual_Nm = coulomb_Nm(catalogue_friction(*gear, usual_model(*gear)).rules.friction);
+  if (found_Nm <= kMostFactor * usual_Nm && found_Nm >= usual_Nm / kMostFactor) return "";
+  return "WARNING: --friction has " + bound_text(found_Nm) +
+         " N.m of Coulomb friction at the joint and 20 degC, where a " + gear->name + " has about " +
+         bound_text(usual_Nm) + ": check its unit, and its side of the gear (--rules-side)\n";
+}
+
 double usual_torque_weight(const Gear& gear, double actuators) {
   return find_catalogue_joint_with_gear(gear.name) != nullptr ? actuators : kStiffWeight;
 }

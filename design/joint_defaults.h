@@ -22,6 +22,10 @@ struct CatalogueFriction {
 };
 CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_model);
 
+/// A warning in one line if Coulomb friction at 20 degC is beyond ten times or a tenth of what the catalogue has of `gear`; else, and without a
+/// gear, empty. Wrong units and the wrong side of the gear are farther off, the estimates of the catalogue are within twice or half.
+std::string friction_doubt(const FuzzyFriction& given, const Gear* gear);
+
 /// The cost's weight of the torque at which the search for gains on a spring begins: that of the catalogue's actuator, else one that is
 /// stiff for each gear of the catalogue.
 double usual_torque_weight(const Gear& gear, double actuators);

@@ -414,6 +414,13 @@ TEST_F(DesignProgram, BadInputIsNamed) {
   EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --period_s -1 --out " + file("t.json")),
             2);
   EXPECT_NE(output_.find("period_s"), std::string::npos) << output_;
+  const std::string rules = "gains --gear csf-17-50 --period_s -1 --out t.json --friction " + kData;
+  (void)run(rules + "fuzzy_rules_table5.csv");
+  EXPECT_EQ(output_.find("WARNING"), std::string::npos) << output_;
+  for (const char* wrong : {"fuzzy_rules_table4.csv", "fuzzy_rules_table5.csv --rules-side motor"}) {
+    (void)run(rules + wrong);
+    EXPECT_NE(output_.find("Coulomb friction at the joint"), std::string::npos) << wrong << ": " << output_;
+  }
   EXPECT_EQ(run("gains --friction /nonexistent.json --out " + file("t.json")), 2);
   EXPECT_NE(output_.find("/nonexistent.json"), std::string::npos) << output_;
   EXPECT_EQ(run("fit " + kData + "rhs17_datasheet.csv --out " + file("f.json")), 2);
