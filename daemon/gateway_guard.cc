@@ -103,7 +103,7 @@ void GatewayGuard::log_deafness() {
   if (deaf != deaf_seen_)
     spdlog::error(
         "what the gateway publishes does not come back: the network's adapter or route was removed or "
-        "changed. No order and no stop reaches the daemon until a new gateway has joined the group");
+        "changed. No command and no stop reaches the daemon until a new gateway has joined the group");
   deaf_seen_ = deaf;
 }
 

@@ -49,7 +49,7 @@ void take_over(Client& client, const Output& output, const std::string& joint) {
 
 void release(Client& client, const Output& output, const std::string& joint) {
   order_accepted(client, joint, Action::kRelease);
-  say(output, joint + ": released; the next client that gives it an order owns it",
+  say(output, joint + ": released; the next client that gives it a command owns it",
       {{"joint", joint}, {"accepted", true}});
 }
 

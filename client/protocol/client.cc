@@ -95,7 +95,7 @@ Answer Client::exchange(const std::string& joint, SealedMessage order, const Pat
   const std::string silence = silence_of(*view, options_.timeout_s);
   throw NoAnswer(
       fmt::format(
-          "{0}: no acknowledgement in {1} s, after {2} transmissions: {3} Whether the order was carried "
+          "{0}: no acknowledgement in {1} s, after {2} transmissions: {3} Whether the command was carried "
           "out is not known: see {4}",
           joint, patience.timeout_s, patience.transmissions,
           silence.empty() ? "the daemon publishes its state but does not answer; see its log."

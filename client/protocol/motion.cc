@@ -35,7 +35,7 @@ std::string motion_ended(const JointView& view, const Motion& motion, std::int64
   if (view.state.session_id != session_id) return "the daemon was restarted";
   const Mode mode = mode_of(view);
   if (mode == Mode::kOff || mode == Mode::kStopping) return "the joint was disabled";
-  if (motion.replaced && motion.replaced(view)) return "another order replaced this one";
+  if (motion.replaced && motion.replaced(view)) return "another command replaced this one";
   return "";
 }
 

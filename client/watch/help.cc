@@ -35,8 +35,8 @@ constexpr std::array<std::string_view, 21> kHelp{
     "rejects      orders that the daemon refused, from all clients, by reason",
     "",
     "white on red: fault, silence, or two daemons on the same channels",
-    "black on amber: a limit is in force, or an order was refused",
-    "orders are signed with --key FILE; without it, a daemon may refuse them",
+    "black on amber: a limit is in force, or a command was refused",
+    "commands are signed with --key FILE; without it, a daemon may refuse them",
 };
 
 /// `kHelp` in lines of `columns`; what is about a key stands below itself.

@@ -42,7 +42,7 @@ struct WatchModel {
   std::vector<WatchedDaemon> daemons;
   std::vector<WatchedJoint> joints;
   int selected = 0;         ///< of `joints`
-  bool has_key = false;     ///< orders are signed
+  bool has_key = false;     ///< commands are signed
   bool unicode = true;      ///< the terminal shows more than ASCII
   bool help = false;        ///< the keys and their meaning instead of the joints
   double interval_s = 0.2;  ///< between two points of a history

@@ -79,7 +79,7 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is " + std::to_string(session_id_) +
                       " (session_id on the STATE channel): strainwaved has restarted since. See what the "
-                      "joint does, then send the order again");
+                      "joint does, then send the command again");
   if (auto verdict = check_fresh(message, envelope.challenge, requester)) return verdict;
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
   return envelope.needs_joint ? check_owner(requester) : std::nullopt;
@@ -92,7 +92,7 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     if (repeats(message, requester)) return repeat(requester);
     return refuse(
         requester, Reason::kTooOld,
-        "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
+        "the command quotes a challenge that the STATE channel has not carried for about a second: it was "
         "delayed on its way, or made from an old state; send it again");
   }
   const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
@@ -100,15 +100,16 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     case Since::kNothing:
       return std::nullopt;
     case Since::kOwnStop:
-      return refuse(requester, Reason::kTooOld,
-                    "the order quotes a challenge from before a stop that its sender gave, or from before a "
-                    "fault: send it again, made from the next state");
+      return refuse(
+          requester, Reason::kTooOld,
+          "the command quotes a challenge from before a stop that its sender gave, or from before a "
+          "fault: send it again, made from the next state");
     case Since::kOthersStop:
       break;
   }
   return refuse(
       requester, Reason::kSuperseded,
-      "the joint was stopped or held after this order was made: see why, then send the order again");
+      "the joint was stopped or held after this command was made: see why, then send the command again");
 }
 
 // What is only claimed is enough to say why an order is refused.
@@ -158,7 +159,7 @@ std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::
   if (signer.role < needed)
     return refuse(requester, Reason::kRoleNotAllowed,
                   "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +
-                      ", this order needs " + std::string(to_text(needed)) + " (security.authorized_keys)");
+                      ", this command needs " + std::string(to_text(needed)) + " (security.authorized_keys)");
   requester.key = static_cast<std::int64_t>(key);
   return check_sequence(sequences_, requester.key, requester);
 }
@@ -189,7 +190,7 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   text << "sender " << owner.sender_id;
   if (owner.key >= 0)
     text << " (key of " << security_.keys[static_cast<std::size_t>(owner.key)].comment << ")";
-  text << " owns " << joints_[requester.joint].name << " until it gives no order for " << security_.lease_s
+  text << " owns " << joints_[requester.joint].name << " until it gives no command for " << security_.lease_s
        << " s (security.lease_s) or releases it; an engineer's key takes it over. A stop or hold is always "
           "possible";
   return refuse(requester, Reason::kNotOwner, text.str());

@@ -101,12 +101,12 @@ std::string mode_advice(Mode mode, OrderKind kind) {
       return ": wait until it has found home and holds, or hold it first";
     case Mode::kTracking:
       return kind == OrderKind::kHome ? ": homing begins at rest, hold it first"
-                                      : ": this order does nothing while it moves";
+                                      : ": this command does nothing while it moves";
     case Mode::kHolding:
     case Mode::kFaulted:
       break;
   }
-  return ": this order does nothing in this mode";
+  return ": this command does nothing in this mode";
 }
 
 }  // namespace
@@ -130,10 +130,10 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
     case Reason::kStreamEnded:
       return mode +
              ", and this stream of setpoints has ended: it expired, or a hold, stop, fault, enable or "
-             "another order ended it. Begin a new one";
+             "another command ended it. Begin a new one";
     case Reason::kTooOld:
       return mode +
-             ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
+             ": the command waited in the daemon for longer than a command lives, or is from before a fault; "
              "send it again";
     case Reason::kVelocitiesContradict:
       return mode +

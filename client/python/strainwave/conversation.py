@@ -134,7 +134,7 @@ class Conversation:
             answer = self._exchange(kind, message, state, most_transmissions(len(message.encode())), self.timeout_s)
             if answer is None:
                 raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
-                               f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the order was carried "
+                               f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the command was carried "
                                "out is not known: see Joint.state")
             if answer.accepted == 1:
                 return

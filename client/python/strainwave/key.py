@@ -24,7 +24,7 @@ def _sodium():
             continue
         if sodium is not None and sodium.sodium_init() >= 0:
             return sodium
-    raise InvalidInput("key: orders are signed with libsodium, which is not here: apt install libsodium23")
+    raise InvalidInput("key: commands are signed with libsodium, which is not here: apt install libsodium23")
 
 
 class SecretKey:

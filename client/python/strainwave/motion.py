@@ -95,7 +95,7 @@ def _why_ended(state, session_id, replaced):
         return "the daemon was restarted"
     if state.mode in (Mode.OFF, Mode.STOPPING):
         return "the joint was disabled"
-    return "another order replaced this one" if replaced and replaced(state) else ""
+    return "another command replaced this one" if replaced and replaced(state) else ""
 
 
 class MotionWatch:

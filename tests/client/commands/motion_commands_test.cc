@@ -93,7 +93,7 @@ TEST_F(CommandsTest, MoveEndsWhenAnotherOrderReplacesIt) {
     daemon.state.target_position_rad = 0.1;  // a hold
   };
   EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
-  EXPECT_TRUE(message_has("another order")) << message;
+  EXPECT_TRUE(message_has("another command")) << message;
 }
 
 TEST_F(CommandsTest, MoveThatALoadEndsSaysWhichAndWhereTheJointHolds) {

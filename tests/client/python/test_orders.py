@@ -15,7 +15,7 @@ from strainwave.network import now_s
 class Orders(PlayedOrders):
     def test_that_nobody_answers_are_repeated_identically_and_then_given_up(self):
         self.publish_state()
-        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of release in 0.2 s, after 4 transmissions: no state for 0.2 s; is strainwaved running. Whether the order was carried out is not known"):
+        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of release in 0.2 s, after 4 transmissions: no state for 0.2 s; is strainwaved running. Whether the command was carried out is not known"):
             self.impatient_elbow.release()
         self.assertEqual(len(self.network.published), 4)
         self.assertEqual(len(set(self.network.published)), 1)
@@ -249,7 +249,7 @@ class Orders(PlayedOrders):
                                    "5: implausible reading: the position jumped by 0.05 rad from one reading to the next"),
                                   (dict(mode=Mode.FAULTED, fault=5, drive_error=-1), Faulted, "5: implausible reading"),
                                   (dict(mode=Mode.OFF), NotDone, "the joint was disabled"),
-                                  (dict(mode=Mode.TRACKING, target_position_rad=0.1), NotDone, "another order replaced"),
+                                  (dict(mode=Mode.TRACKING, target_position_rad=0.1), NotDone, "another command replaced"),
                                   (dict(mode=Mode.HOLDING, session_id=12), NotDone, "daemon was restarted")):
             with self.subTest(words), self.assertRaisesRegex(error, words):
                 self.wait_for_move(self.elbow, moving, end)

@@ -162,7 +162,7 @@ TEST(WatchView, OffersOrdersToDaemonsThatTakeThemUnsigned) {
   unsigned_model.has_key = false;
   const Screen screen = render(unsigned_model, 24, 160);
   EXPECT_TRUE(shows(screen, "e enable"));
-  EXPECT_TRUE(shows(screen, "orders are not signed"));
+  EXPECT_TRUE(shows(screen, "commands are not signed"));
 }
 
 TEST(WatchView, AFaultKeepsItsColourWhenItsJointIsSelected) {

@@ -19,7 +19,7 @@ TEST(WatchTitle, SaysWhoIsInTroubleBeforeAnythingElseOnANarrowScreen) {
     many.joints.back().joint = "joint" + std::to_string(i);
     many.joints.back().prefix = "SW";
   }
-  EXPECT_EQ(render(many, 12, 60).text(0), "strainwave  6 joints of 1 daemon  orders are not signed");
+  EXPECT_EQ(render(many, 12, 60).text(0), "strainwave  6 joints of 1 daemon  commands are not signed");
   many.joints[4].view.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
   EXPECT_EQ(render(many, 12, 40).text(0), "FAULT or SILENCE: joint4");
   EXPECT_EQ(render(many, 24, 80).text(0), "FAULT or SILENCE: joint4  6 joints of 1 daemon");

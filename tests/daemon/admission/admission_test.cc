@@ -185,7 +185,7 @@ TEST_F(AdmissionTest, RefusesAnotherSession) {
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
   EXPECT_EQ(verdict.reason, Reason::kWrongSession);
   EXPECT_TRUE(verdict.text.ends_with(
-      "strainwaved has restarted since. See what the joint does, then send the order again"))
+      "strainwaved has restarted since. See what the joint does, then send the command again"))
       << verdict.text;
 }
 
