@@ -3,28 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
 #include "lcmtypes/cycle_fields.h"
-#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 
 namespace {
-
-/// Of the joint's speed limit: below it the direction of a motion, and so its friction, is in doubt.
-constexpr double kSlowShare = 0.01;
-
-bool has(const state_v1& state, Notice notice) {
-  return (state.notices & static_cast<std::int32_t>(notice)) != 0;
-}
-
-/// A motion whose feedback tells of friction: free, and not at the torque's limit.
-bool tells_of_friction(const state_v1& state, const limits_v1& limits) {
-  return state.mode == static_cast<std::int32_t>(Mode::kTracking) && !has(state, Notice::kTorqueLimited) &&
-         std::fabs(state.setpoint_velocity_rad_s) > kSlowShare * limits.speed_limit_rad_s;
-}
 
 template <typename Counts>
 bool counts_up(const Counts& counts) {
@@ -48,10 +33,6 @@ void JointRecord::take(const state_v1& latest, double now_s) {
   state_heard_s = now_s;
   torque_Nm.take(state.torque_commanded_Nm, now_s);
   tracking_error_rad.take(strainwave::tracking_error_rad(state), now_s);
-  if (!limits || !tells_of_friction(state, *limits)) return;
-  const double direction = std::copysign(1.0, state.setpoint_velocity_rad_s);
-  friction_modelled_Nm.take(direction * state.torque_feedforward_Nm, now_s);
-  friction_excess_Nm.take(direction * state.torque_feedback_Nm, now_s);
 }
 
 void Fleet::take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from) {

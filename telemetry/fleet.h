@@ -32,8 +32,6 @@ struct JointRecord {
 
   RecentPeak tracking_error_rad;
   RecentPeak torque_Nm;
-  RecentMean friction_modelled_Nm;  ///< feed-forward along the motion
-  RecentMean friction_excess_Nm;    ///< what the feedback adds to it, along the motion
 
   void take(const state_v1& latest, double now_s);
 };

@@ -78,13 +78,6 @@ constexpr std::array kJointMetrics{
                   return Value(real(j.state.temperature_status ==
                                     static_cast<std::int32_t>(TemperatureStatus::kValid)));
                 }},
-    JointMetric{"strainwave_joint_friction_modelled_newton_meters", MetricType::kGauge,
-                "Mean feed-forward torque along the motion, of what moved in the last minute.",
-                [](const Joint& j, double now_s) { return j.friction_modelled_Nm.mean(now_s); }},
-    JointMetric{"strainwave_joint_friction_excess_newton_meters", MetricType::kGauge,
-                "Mean feedback torque along the motion, of what moved in the last minute: friction that the "
-                "model lacks.",
-                [](const Joint& j, double now_s) { return j.friction_excess_Nm.mean(now_s); }},
     JointMetric{"strainwave_joint_friction_factor", MetricType::kGauge,
                 "Learned friction over the table's, at the present temperature.",
                 [](const Joint& j, double) { return Value(j.state.friction_factor); }},

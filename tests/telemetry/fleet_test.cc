@@ -59,44 +59,15 @@ TEST(JointMetrics, KeepThePeaksBetweenTwoScrapes) {
   EXPECT_EQ(sample(page, R"(strainwave_joint_torque_newton_meters{prefix="SW",joint="elbow"})"), 0.0);
 }
 
-TEST(JointMetrics, TellFrictionFromLoadByMovingBothWays) {
-  Fleet fleet;
-  fleet.take(kElbow, state_v1{}, kNow_s);
-  fleet.take(kElbow, limits(), kNow_s);
-  constexpr double kLoad_Nm = 5.0;
-  constexpr double kModelled_Nm = 10.0;
-  constexpr double kExcess_Nm = 2.0;
-  for (int i = 0; i < 100; ++i) {
-    const double direction = i % 2 == 0 ? 1.0 : -1.0;
-    state_v1 state{};
-    state.mode = static_cast<std::int32_t>(Mode::kTracking);
-    state.setpoint_velocity_rad_s = direction;
-    state.torque_feedforward_Nm = direction * kModelled_Nm;
-    state.torque_feedback_Nm = direction * kExcess_Nm + kLoad_Nm;
-    fleet.take(kElbow, state, kNow_s);
-    // At rest, and at the torque's limit, feedback says nothing of friction.
-    state.torque_feedback_Nm = 1e3;
-    state.notices = static_cast<std::int32_t>(Notice::kTorqueLimited);
-    fleet.take(kElbow, state, kNow_s);
-    state.notices = 0;
-    state.setpoint_velocity_rad_s = 0.0;
-    fleet.take(kElbow, state, kNow_s);
-  }
-  const std::string page = page_of(fleet);
-  EXPECT_NEAR(sample(page, R"(strainwave_joint_friction_modelled_newton_meters{prefix="SW",joint="elbow"})"),
-              kModelled_Nm, 1e-9);
-  EXPECT_NEAR(sample(page, R"(strainwave_joint_friction_excess_newton_meters{prefix="SW",joint="elbow"})"),
-              kExcess_Nm, 1e-9);
-}
-
 TEST(JointMetrics, SayNothingOfWhatIsNotKnown) {
   Fleet fleet;
   state_v1 state{};
+  state.friction_age_s = -1.0;
   state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
   fleet.take(kElbow, state, kNow_s);
   const std::string page = page_of(fleet);
-  for (const char* name : {"friction_modelled", "friction_excess", "torque_limit", "temperature_celsius",
-                           "temperature_used_celsius", "joint_fault{", "notice"})
+  for (const char* name : {"friction_age", "torque_limit", "temperature_celsius", "temperature_used_celsius",
+                           "joint_fault{", "notice"})
     EXPECT_EQ(page.find(name), std::string::npos) << name;
 }
 

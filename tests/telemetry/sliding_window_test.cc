@@ -23,15 +23,5 @@ TEST(RecentPeak, ForgetsWhatWasInASlotBefore) {
   EXPECT_EQ(peak.amount(70.0), 1.0);
 }
 
-TEST(RecentMean, IsOfWhatWasTakenAndNothingOfNothing) {
-  RecentMean mean;
-  EXPECT_FALSE(mean.mean(5.0));
-  mean.take(1.0, 5.0);
-  mean.take(2.0, 25.0);
-  EXPECT_DOUBLE_EQ(*mean.mean(30.0), 1.5);
-  EXPECT_DOUBLE_EQ(*mean.mean(84.0), 2.0) << "the first is older than a minute";
-  EXPECT_FALSE(mean.mean(200.0));
-}
-
 }  // namespace
 }  // namespace strainwave
