@@ -37,7 +37,7 @@ DaemonConfig bench_config(int joints) {
   for (int i = 0; i < joints; ++i) {
     JointConfig joint;
     joint.name = "j" + std::to_string(i);
-    joint.loop.limits = {-10.0, 10.0, 1.0, 100.0, 10.0, 200.0, {34.0, {}, {}}};
+    joint.loop.limits = {-10.0, 10.0, 1.0, 100.0, 10.0, 190.0, 200.0, {34.0, {}, {}}};
     joint.loop.controller.torque_limit_Nm = 34.0;
     joint.drive = SimulatedDrive{simulated_reference_joint(false), {}};
     config.joints.push_back(joint);

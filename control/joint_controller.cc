@@ -112,7 +112,7 @@ double JointController::holding_torque_Nm() const noexcept {
 }
 
 PlannedJoint JointController::joint() const noexcept {
-  PlannedJoint joint{model_, friction_.load_Nm(), torque_limit_Nm_};
+  PlannedJoint joint{model_, friction_.load_Nm(), torque_limit_Nm_, driving_share_ * torque_limit_Nm_};
   joint.model.inertia_kgm2 += plan_.trajectory().load().inertia_kgm2;
   joint.model.friction = friction_.friction();
   return joint;

@@ -95,8 +95,12 @@ class JointController {
   bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
 
   /// So many periods, >= 1, after the last step() comes the next, which is given the same number: before samples that have come since are
-  /// followed. May be left out where it is one.
-  void begin_period(std::int64_t elapsed_periods) noexcept { plan_.begin_period(elapsed_periods); }
+  /// followed. Motions speed up with `driving_share` of the torque limit, 0 to 1; what brakes and holds has all of it. May be left out where
+  /// both are one.
+  void begin_period(std::int64_t elapsed_periods, double driving_share) noexcept {
+    plan_.begin_period(elapsed_periods);
+    driving_share_ = driving_share;
+  }
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
@@ -140,6 +144,7 @@ class JointController {
   OscillationDetector oscillation_;
   JointModel model_;  ///< inertia, and the shape of friction
   double torque_limit_Nm_ = 0.0;
+  double driving_share_ = 1.0;
   double hold_torque_Nm_ = 0.0;
   double shown_load_Nm_ = 0.0;
   int rest_periods_ = 0;  ///< since the plan rests

@@ -108,8 +108,8 @@ MotionLimits JointPlan::present_limits(const PlannedJoint& joint) const noexcept
   MotionLimits limits = reachable_limits(
       motion_, config_.motor, joint.model,
       config_.gravity.at(plan_.link_position_rad) + trajectory_.load().torque_Nm + joint.load_Nm,
-      joint.torque_limit_Nm, config_.torque_reserve, std::abs(trajectory_.velocity_rad_s()),
-      config_.period_s);
+      {joint.driving_Nm, joint.torque_limit_Nm}, config_.torque_reserve,
+      std::abs(trajectory_.velocity_rad_s()), config_.period_s);
   limits.acceleration_rad_s2 *= pace_;
   limits.deceleration_rad_s2 *= pace_;
   return limits;

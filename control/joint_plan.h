@@ -26,6 +26,7 @@ struct PlannedJoint {
   JointModel model;              ///< inertia with the stream's load, and friction at the present temperature
   double load_Nm = 0.0;          ///< learned; gravity and the stream's load come on top
   double torque_limit_Nm = 0.0;  ///< > 0, of table and configuration
+  double driving_Nm = 0.0;       ///< at most that, with which a motion speeds up
 };
 
 class JointPlan {

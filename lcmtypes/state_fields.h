@@ -37,6 +37,8 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("friction_rule_C", std::span<const double>(state.friction_rule_C));
   visit("friction_scales", std::span<const double>(state.friction_scales));
   visit("late_samples", state.late_samples);
+  visit("torque_limit_Nm", state.torque_limit_Nm);
+  visit("temperature_margin_C", state.temperature_margin_C);
   visit("learned_load_Nm", state.learned_load_Nm);
 }
 

@@ -75,6 +75,7 @@ enum class Notice : std::int32_t {
   kSamplesMissing = 1 << 17,
   kFrictionDiffers = 1 << 18,
   kVelocitiesContradict = 1 << 19,
+  kDerated = 1 << 20,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects.

@@ -29,7 +29,7 @@ constexpr std::array kNotices{
     Notice::kReadingMissed,  Notice::kSpeedLimited,       Notice::kNotHomed,      Notice::kAtLimitSwitch,
     Notice::kOffStream,      Notice::kPositionLate,       Notice::kOffTarget,     Notice::kLoadHigh,
     Notice::kOtherInertia,   Notice::kPathPaused,         Notice::kPathEnds,      Notice::kYielded,
-    Notice::kSamplesMissing, Notice::kFrictionDiffers};
+    Notice::kSamplesMissing, Notice::kFrictionDiffers,    Notice::kDerated};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -52,6 +52,9 @@ std::string meaning(std::string_view field, const state_v1& state) {
       texts.emplace_back(to_text(notice));
       if (notice == Notice::kFrictionDiffers)
         texts.back() += fmt::format(" ({:.2f} times)", state.friction_factor);
+      if (notice == Notice::kDerated)
+        texts.back() += fmt::format(" ({:.1f} N.m, {:.1f} degC below the limit)", state.torque_limit_Nm,
+                                    state.temperature_margin_C);
       if (notice == Notice::kOtherInertia && std::isfinite(state.inertia_estimated_kgm2))
         texts.back() += fmt::format(" ({:.3g} kg m2)", state.inertia_estimated_kgm2);
     }

@@ -12,10 +12,11 @@ constexpr double kLeastAccelerating = 0.02;
 }  // namespace
 
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
-                              double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
+                              double load_Nm, const TorqueLimits& torque, double reserve, double speed_rad_s,
                               double period_s) noexcept {
   const double usable = 1.0 - reserve;
-  const double limit_Nm = usable * std::min(torque_limit_Nm, motor.peak_torque_Nm);
+  const double limit_Nm = usable * std::min(torque.driving_Nm, motor.peak_torque_Nm);
+  const double braking_Nm = usable * std::min(torque.braking_Nm, motor.peak_torque_Nm);
   const double supply_Nm = usable * motor.stall_torque_Nm - motor.torque_per_speed_Nms_rad * speed_rad_s;
   const double coulomb_Nm = model.friction.coulomb_Nm;
   const double against_Nm = std::abs(load_Nm);
@@ -27,11 +28,11 @@ MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& mot
   const double driving_Nm = std::min(limit_Nm, supply_Nm) - coulomb_Nm - viscous_Nm - against_Nm;
   const double acceleration = driving_Nm / (model.inertia_kgm2 + period_s * damping);
   // Viscous friction helps as well, but not until the end.
-  const double deceleration = (limit_Nm + coulomb_Nm - against_Nm) / model.inertia_kgm2;
+  const double deceleration = (braking_Nm + coulomb_Nm - against_Nm) / model.inertia_kgm2;
 
   // Where losses take all of the torque, less the reserve, the reference stops accelerating, trickle or not: it does not run ahead of the
   // joint, and what brakes it brakes the joint.
-  const double least_Nm = kLeastAccelerating * limit_Nm;
+  const double least_Nm = kLeastAccelerating * braking_Nm;
   const auto fastest = [&](double torque_Nm, double loss_Nms_rad) {
     return std::max(least_Nm, torque_Nm - coulomb_Nm - against_Nm) / loss_Nms_rad;
   };

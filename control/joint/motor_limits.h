@@ -59,11 +59,17 @@ struct MotorLimits {
   }
 };
 
-/// Acceleration and deceleration that are possible at `speed_rad_s` >= 0, under `torque_limit_Nm`, the motor's limits, friction and load.
+/// What a motion is planned with, joint side.
+struct TorqueLimits {
+  double driving_Nm = 0.0;  ///< >= 0, at most braking_Nm; less where the joint is hot
+  double braking_Nm = 0.0;  ///< > 0
+};
+
+/// Acceleration and deceleration that are possible at `speed_rad_s` >= 0, under `torque`, the motor's limits, friction and load.
 /// The share `reserve` of the torque is left to the feedback. Friction reduces the acceleration and adds to the deceleration; the load
-/// counts against both. At most `motion`, at least what 2 % of the torque limit gives.
+/// counts against both. At most `motion`, at least what 2 % of the braking torque gives.
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
-                              double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
+                              double load_Nm, const TorqueLimits& torque, double reserve, double speed_rad_s,
                               double period_s) noexcept;
 
 }  // namespace strainwave

@@ -19,6 +19,8 @@ namespace strainwave {
 namespace {
 
 constexpr Range kAnyAngle{-1e4, 1e4};
+// Below the limit, of a joint that is given no derating_C.
+constexpr double kDerates_C = 10.0;
 
 void read_limits(TomlSection& section, double gear_ratio, JointLoopConfig& loop) {
   JointLimits& limits = loop.limits;
@@ -39,6 +41,8 @@ void read_limits(TomlSection& section, double gear_ratio, JointLoopConfig& loop)
   limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
   loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
   limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
+  const double limit_C = limits.temperature_limit_C;
+  limits.derating_C = section.number_or("derating_C", limit_C - kDerates_C, {-100.0, limit_C - 1.0});
   loop.overload_stop =
       section.choice_or("on_overload", "torque_off", {"torque_off", "hold_load"}) == "hold_load"
           ? OverloadStop::kHoldLoad

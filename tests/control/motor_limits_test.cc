@@ -54,7 +54,7 @@ TEST(MotorLimits, NeverChangeATorquesSignNorItsSymmetry) {
 
 MotionLimits limits(double load_Nm, double speed_rad_s) {
   return reachable_limits({10.0, 1e6, 1e6}, MotorLimits::from_motor(kMotor), testing::reference_model(),
-                          load_Nm, 34.0, 0.02, speed_rad_s, 0.001);
+                          load_Nm, {34.0, 34.0}, 0.02, speed_rad_s, 0.001);
 }
 
 TEST(ReachableLimits, TheirAccelerationIsOneThatTheMotorHasAgainstFriction) {
@@ -76,10 +76,26 @@ TEST(ReachableLimits, ALoadCountsAgainstAccelerationAndDeceleration) {
   }
 }
 
+TEST(ReachableLimits, FallWithTheDrivingTorqueAndTheDecelerationStays) {
+  MotionLimits before = limits(2.0, 0.0);
+  for (double driving_Nm = 34.0; driving_Nm >= 0.0; driving_Nm -= 0.5) {
+    const MotionLimits now =
+        reachable_limits({10.0, 1e6, 1e6}, MotorLimits::from_motor(kMotor), testing::reference_model(), 2.0,
+                         {driving_Nm, 34.0}, 0.02, 0.0, 0.001);
+    EXPECT_LE(now.acceleration_rad_s2, before.acceleration_rad_s2) << driving_Nm;
+    EXPECT_LE(now.velocity_rad_s, before.velocity_rad_s) << driving_Nm;
+    EXPECT_EQ(now.deceleration_rad_s2, before.deceleration_rad_s2) << driving_Nm;
+    EXPECT_GT(now.acceleration_rad_s2, 0.0) << "it never stops for good";
+    EXPECT_GT(now.velocity_rad_s, 0.0);
+    before = now;
+  }
+  EXPECT_LT(before.acceleration_rad_s2, 0.05 * limits(2.0, 0.0).acceleration_rad_s2);
+}
+
 TEST(ReachableLimits, EndAtASpeedThatTheMotorHoldsAgainstFrictionAndTheirAccelerationWithIt) {
   const MotorLimits motor = MotorLimits::from_motor(kMotor);
   const auto at = [&](double load_Nm, double speed_rad_s) {
-    return reachable_limits({1e3, 1e6, 1e6}, motor, testing::reference_model(), load_Nm, 34.0, 0.02,
+    return reachable_limits({1e3, 1e6, 1e6}, motor, testing::reference_model(), load_Nm, {34.0, 34.0}, 0.02,
                             speed_rad_s, 0.001);
   };
   for (const double load_Nm : {0.0, 8.0}) {

@@ -31,7 +31,7 @@ BenchJoint demo_joint() {
   controller.motor = joint.drive.plant.motor;
   controller.torque_limit_Nm = kReferencePeakTorque_Nm;
   controller.motion = {6.0, 150.0, 150.0};
-  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, {}};
+  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 70.0, 80.0, {}};
   joint.loop.limits.load.load_Nm = kReferencePeakTorque_Nm;
   joint.loop.limits.load.notice_Nm = kReferencePeakTorque_Nm;
   return joint;

@@ -18,6 +18,12 @@ constexpr std::array kFaults{Fault::kNone,           Fault::kReadFailed,    Faul
                              Fault::kBusError};
 static_assert(kFaults.size() == static_cast<std::size_t>(ActuatorFault::kBusError) + 1);
 
+// By the last temperature that could be believed.
+double driving_share(const JointInLoop& joint) noexcept {
+  const TemperatureCheck& temperature = joint.drive.temperature();
+  return temperature.known() ? joint.config.limits.driving_share(temperature.used_C()) : 1.0;
+}
+
 }  // namespace
 
 JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator,
@@ -28,7 +34,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   joint_.notices = 0;
-  joint_.law.controller().begin_period(time.elapsed_periods);
+  joint_.law.controller().begin_period(time.elapsed_periods, driving_share(joint_));
   take_orders(time);
   read_drive(time);
   check_reading(time);
@@ -76,8 +82,9 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
 }
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
-  if (joint_.mode.is(Mode::kOff)) return;
   const TemperatureCheck& temperature = joint_.drive.temperature();
+  if (driving_share(joint_) < 1.0) joint_.notice(Notice::kDerated);
+  if (joint_.mode.is(Mode::kOff)) return;
   if (temperature.hotter_than(joint_.config.limits.temperature_limit_C))
     return raise_fault(Fault::kTemperatureLimit, time);
   if (temperature.lost()) raise_fault(Fault::kTemperatureLost, time);

@@ -2,6 +2,8 @@
 // The settings of one joint in the loop (daemon/realtime/joint/joint_loop.h). Plain data.
 #pragma once
 
+#include <algorithm>
+
 #include "control/joint_controller_config.h"
 #include "daemon/realtime/joint/homing.h"
 #include "daemon/realtime/joint/load_limits.h"
@@ -16,8 +18,14 @@ struct JointLimits {
   double position_margin_rad = 0.0;  ///< fault beyond position_min - margin and position_max + margin
   double overspeed_rad_s = 0.0;      ///< fault
   double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
-  double temperature_limit_C = 0.0;  ///< fault above
+  double derating_C = 0.0;           ///< motions speed up with less torque above
+  double temperature_limit_C = 0.0;  ///< fault above; > derating_C
   LoadLimitConfig load;              ///< the joint yields to a larger load
+
+  /// Of the torque limit, with which motions speed up: 1 up to derating_C, then falling linearly, 0 from temperature_limit_C on.
+  double driving_share(double temperature_C) const noexcept {
+    return std::clamp((temperature_limit_C - temperature_C) / (temperature_limit_C - derating_C), 0.0, 1.0);
+  }
 };
 
 /// What becomes of a joint that yields to a load.

@@ -180,6 +180,14 @@ TEST(StateNotes, NameTheFactorWhereFrictionDiffersFromTheTable) {
   EXPECT_EQ(state_notes(view, 0.01), "friction differs from the table (1.62 times)");
 }
 
+TEST(StateNotes, NameTorqueAndMarginOfAHotJoint) {
+  JointView view = healthy();
+  view.state.notices = static_cast<std::int32_t>(Notice::kDerated);
+  view.state.torque_limit_Nm = 12.25;
+  view.state.temperature_margin_C = 3.6;
+  EXPECT_EQ(state_notes(view, 0.01), "torque derated (12.2 N.m, 3.6 degC below the limit)");
+}
+
 TEST(StateDetails, NameEveryCodeInWords) {
   JointView view = healthy();
   view.state.fault = static_cast<std::int32_t>(Fault::kSpeedLimit);

@@ -97,6 +97,12 @@ TEST_F(ConfigTest, RefusesATemperatureLimitThatNoBelievableReadingReaches) {
       read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\ntemperature_limit_C = 89")));
 }
 
+TEST_F(ConfigTest, DeratesTenDegreesBelowTheTemperatureLimitAndAtLeastOne) {
+  EXPECT_EQ(read(kSound).joints.at(0).loop.limits.derating_C, 70.0);
+  expect_mentions(error_after("torque_limit_Nm = 34", "torque_limit_Nm = 34\nderating_C = 79.5"),
+                  {"derating_C = 79.5", "to 79"});
+}
+
 TEST_F(ConfigTest, MovesAtAQuarterOfTheSpeedLimitUnlessToldAndHasNoJerkLimitByItself) {
   const auto limits = [](const std::string& keys) {
     return replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\n" + keys);

@@ -45,6 +45,7 @@ Values loop_values(const JointLoopConfig& loop) {
           {"joint.limits.move_speed_share", loop.move_speed_share},
           {"joint.limits.overspeed_rad_s", loop.limits.overspeed_rad_s},
           {"joint.limits.temperature_limit_C", loop.limits.temperature_limit_C},
+          {"joint.limits.derating_C", loop.limits.derating_C},
           {"joint.limits.on_overload", static_cast<double>(loop.overload_stop)},
           {"joint.temperature.min_C", temperature.min_C},
           {"joint.temperature.max_C", temperature.max_C},
