@@ -57,8 +57,10 @@ bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
 MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {
   const bool returns =
       config.drive_mode == DriveMode::kVelocity && (plan.moves() || !at_place(config, off_rad));
+  const auto [begin_rad_s, middle_rad_s, end_rad_s] = plan.now().acting_velocities_rad_s;
+  const double earlier = 2.0 * config.drive_loop_period_s / config.period_s;  // in half periods
   return {plan.now().acting_end_position_rad,
-          plan.now().acting_velocities_rad_s[1] + (returns ? kReturn_1_s * off_rad : 0.0)};
+          middle_rad_s - earlier * (middle_rad_s - begin_rad_s) + (returns ? kReturn_1_s * off_rad : 0.0)};
 }
 
 double share_of_velocity(const JointControllerConfig& config) noexcept {

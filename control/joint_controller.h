@@ -12,7 +12,8 @@
 //
 // A drive that closes its own loop is ordered the plan, and torque as far as it is known without the law:
 //
-//   order        thm* at the end of the period in which it acts, wm*, T* + F + load      (control/joint/drive_mode.h)
+//   order        thm* at the end of the period in which it acts, T* + F + load, and      (control/joint/drive_mode.h)
+//                wm* so much before its middle as the drive's velocity is old
 //   velocity     wm* + r (plan - reading), where the drive closes no loop of position
 //   learning     s_i and load from the torque that the drive adds by itself, where it says which
 //

@@ -33,7 +33,7 @@ constexpr bool closes_loop(DriveMode mode) noexcept {
 /// One period of a drive that closes its own loop.
 struct MotorOrder {
   double position_rad = 0.0;    ///< at the end of the period over which the order acts
-  double velocity_rad_s = 0.0;  ///< in its middle
+  double velocity_rad_s = 0.0;  ///< in its middle, or as much earlier as the drive's own velocity is old
 };
 
 }  // namespace strainwave

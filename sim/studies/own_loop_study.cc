@@ -23,8 +23,10 @@ JointPlantConfig plant_at(double rate_Hz) {
 }
 
 JointControllerConfig controller_config(JointPlantConfig plant, const GainTable& table, Told told) {
+  const double drive_period_s = plant.period_s;
   plant.period_s = kBusPeriod_s;
   JointControllerConfig config = extended_config(plant, table);
+  config.drive_loop_period_s = drive_period_s;
   config.delay_periods = 1;
   config.drive_mode = DriveMode::kPosition;
   if (told == Told::kPlan) config.without = Mechanism::kWindUp;
