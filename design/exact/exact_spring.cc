@@ -176,8 +176,8 @@ class CellProof {
     if (part[1].to == 0.0) return {1, 1, motor_inertia_kgm2_};
     const double K = part[0].to;
     const mpq_class swing =
-        power_of_two_near(std::sqrt(K * (1 / motor_inertia_kgm2_.get_d() + 1 / part[1].from)));
-    return {1, swing, 1, swing, power_of_two_near(K)};
+        short_number_near(std::sqrt(K * (1 / motor_inertia_kgm2_.get_d() + 1 / part[1].from)));
+    return {1, swing, 1, swing, short_number_near(K)};
   }
 
   /// E of a part whose corners have these generators. Sets the direction in which most of it lies.

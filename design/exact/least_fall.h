@@ -10,11 +10,11 @@ namespace strainwave {
 ///   allowed - factor (H + D)' P (H + D)  >  0     for every D with |D| <= X, entry by entry; H = loop.value, X = loop.radius
 /// P symmetric; factor > 0. With w_i the rows of P H, R = X' |P| X and any l_ij, s_i > 0:
 ///   D' P H + H' P D  <=  sum_ij X_ij (l_ij w_i' w_i + e_j e_j' / l_ij),      D' P D  <=  diag_i (sum_j R_ij s_j / s_i)
-/// l and s are the powers of two near those that lose least; a poor choice refuses, and never accepts, too much.
+/// l and s are short numbers near those that lose least; a poor choice refuses, and never accepts, too much.
 bool falls(const RationalMatrix& allowed, const RationalMatrix& P, const Enclosure& loop,
            const mpq_class& factor);
 
-/// The power of two near `value`, or 1 where that is no positive number.
-mpq_class power_of_two_near(double value);
+/// A number of few binary digits within 1 % of `value`, or 1 where that is no positive number.
+mpq_class short_number_near(double value);
 
 }  // namespace strainwave
