@@ -43,7 +43,8 @@ double deviation_Nm(const CommissionRecord& record) {
 }
 
 double torque_Nm(const FuzzyFriction& friction, const SteadyPoint& at) {
-  return friction.torque_Nm(friction.blend(friction.weights(at.temperature_C)), at.speed_rad_s);
+  return stribeck_friction_Nm(friction.blend(friction.weights(at.temperature_C)),
+                              friction.velocity.stribeck(), at.speed_rad_s);
 }
 
 void report(const std::vector<SteadyPoint>& points, const FuzzyFriction& prior, const FuzzyFriction& used) {

@@ -141,7 +141,9 @@ class CommissionRun {
     std::vector<FrictionAtSpeed> curve;
     for (int i = 1; i <= kCurvePoints; ++i) {
       const double speed_rad_s = kCurveReach * fastest.speed_rad_s * i / kCurvePoints;
-      curve.push_back({speed_rad_s, fastest.temperature_C, {friction.torque_Nm(here, speed_rad_s), 0.0}});
+      curve.push_back({speed_rad_s,
+                       fastest.temperature_C,
+                       {stribeck_friction_Nm(here, friction.velocity.stribeck(), speed_rad_s), 0.0}});
     }
     return curve;
   }

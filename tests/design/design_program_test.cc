@@ -365,7 +365,8 @@ TEST_F(DesignProgram, FrictionMeasuredAtOneTemperatureCorrectsTheCatalogueAtAll)
   constexpr double kFactor = 1.5, kMeasured_C = 20.0;
   const FuzzyFriction catalogue = catalogue_friction(*find_gear("csf-25-100"), "csf-25-100").rules.friction;
   const auto torque_Nm = [](const FuzzyFriction& friction, double temperature_C, double speed_rad_s) {
-    return friction.torque_Nm(friction.blend(friction.weights(temperature_C)), speed_rad_s);
+    return stribeck_friction_Nm(friction.blend(friction.weights(temperature_C)), friction.velocity.stribeck(),
+                                speed_rad_s);
   };
   CommissionRecord record;
   for (const double speed_rad_s : {0.1, 0.2, 0.4, 0.7})
