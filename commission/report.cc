@@ -143,7 +143,10 @@ std::string response_charts(const CommissionRecord& record) {
       phase.curves[1].points.push_back({point.frequency_Hz, point.phase_rad * kDegrees});
     }
   }
-  return heading("Response of the motor to torque") + to_svg(magnitude) + to_svg(phase);
+  return heading("Response of the motor to torque") + to_svg(magnitude) + to_svg(phase) +
+         "<p>The model has the stiffness of slow motion. A swing within the lost motion meets up to twice of "
+         "it, "
+         "so the measured resonance may lie higher by a factor of up to 1.4.</p>\n";
 }
 
 std::string friction_chart(const CommissionRecord& record, const ReportedDesign& design) {
