@@ -9,6 +9,13 @@
 
 namespace strainwave {
 
+namespace {
+
+// For coming to rest along the path: a multiple of what the slowest joint needs on its own, and what the clock needs of the slowest path.
+constexpr double kPatience = 2.0;
+
+}  // namespace
+
 PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
     : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
   for (const auto& joint : joints_) joint->joint().follower = this;
@@ -136,6 +143,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     for_each_member(index, [](JointInLoop& joint, Member&) { joint.end_orders(); });
     return free(index);
   }
+  if (travel.phase == Phase::kEnding && (travel.rest_cycles -= time.elapsed_periods) <= 0) stop_each(index);
 }
 
 // Of one that ends early all joints are on it until all rest: what is to stop with them waits for that.
@@ -177,7 +185,17 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
   Travel& travel = travels_[index];
   travel.clock.rest();
   if (travel.phase == Phase::kEnding) return;
-  for_each_member(index, [](JointInLoop& joint, Member&) { joint.ordered.path_ends(); });
+  double longest_s = 0.0;
+  for_each_member(index, [&](JointInLoop& joint, Member& member) {
+    if (joint.path == nullptr) return;
+    joint.ordered.path_ends();
+    PathReader reader = member.reader;
+    const PathPoint here = reader.at(joint.path->path, travel.clock.time_s());
+    longest_s = std::max(longest_s,
+                         std::abs(here.velocity_rad_s) / joint.config.controller.motion.deceleration_rad_s2);
+  });
+  travel.rest_cycles = std::llround(
+      kPatience * (longest_s + 1.0 / PathClock::kFastestChange_1_s) / period_s_ + travel.most_behind_periods);
   travel.phase = Phase::kEnding;
 }
 

@@ -11,7 +11,8 @@
 //   a joint that is lost to what is in its way, or that others live on as well (daemon/realtime/joint/fault_reach.h)
 //            -> each of the others stops on its own, at once
 //
-// Where the path is just using what deceleration there is, resting along it waits: the joint that needs it is then coming to rest by itself.
+// Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
+// twice the time that they need on their own, stop on their own.
 //
 // After a gap of more than kMaxElapsedPeriods in which the loop did not run each joint comes to rest on its own, and the path is over.
 #pragma once
@@ -56,6 +57,7 @@ class PathFollower {
     PathTimes times;                   ///< of the clock
     double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
+    std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
   };
   /// A joint's place on it.
   struct Member {
