@@ -62,6 +62,13 @@ class CommissionRun {
         configuration().string(), arguments_.joint, joint_.first_target_rad);
   }
 
+  /// What to type after a step failed: measuring goes on with the whole of it.
+  std::string repeated(const std::string& program, const std::vector<std::string>& arguments) const {
+    if (arguments.front() != "--commission") return command_line(program, arguments);
+    return command_line("strainwavectl", {"commission", arguments_.joint, "--config",
+                                          arguments_.config.string(), "--out", arguments_.out.string()});
+  }
+
   /// Returns what it printed, which goes to the output, too.
   std::string run_program(const std::string& step, const std::string& program,
                           const std::vector<std::string>& arguments, bool captured = false) {
@@ -71,7 +78,7 @@ class CommissionRun {
     const bool capture = captured || output_.json;
     const int status = run_sibling(program, arguments, capture ? &printed : nullptr);
     if (captured && !output_.json) output_.stream << printed;
-    if (interrupted())
+    if (interrupted() || status == static_cast<int>(ExitStatus::kInterrupted))
       throw ClientError(
           ExitStatus::kInterrupted,
           fmt::format("{}: stopped while {}; repeat the command to go on", arguments_.joint, step));
@@ -79,7 +86,7 @@ class CommissionRun {
       throw ClientError(ExitStatus::kRefused,
                         fmt::format("{}: {} failed{}{}; to repeat it: {}", arguments_.joint, step,
                                     output_.json ? ": " : ", see above", output_.json ? printed : "",
-                                    command_line(program, arguments)),
+                                    repeated(program, arguments)),
                         {arguments_.joint, {}, {}, {}, {}});
     return printed;
   }

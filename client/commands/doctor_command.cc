@@ -172,16 +172,19 @@ void examine_joint(Client& client, const Output& output, const DoctorArguments& 
         {{"joint", joint}, {"duration_s", duration_s(strokes, *evidence.limits, position_rad)}});
   if (arguments.dry_run) return;
   const Listening listening(client, joint, evidence);
+  std::exception_ptr ended;
   try {
     run_strokes(client, joint, strokes, evidence.limits->torque_limit_Nm * 1.01);
     client.wait_until([&] { return evidence.timings.size() >= 2; }, Deadline(client.options().timeout_s));
   } catch (const ClientError& error) {
     if (error.status() == ExitStatus::kInterrupted || error.status() == ExitStatus::kNoAnswer) throw;
-    // What ended the test is evidence, too.
+    // What ended the test is evidence, too. Without a finding it is the answer: a test that did not run says nothing of health.
     if (!output.json) output.stream << fmt::format("the test ended early: {}\n", error.what());
     client.wait_until([] { return false; }, Deadline(0.3));
+    ended = std::current_exception();
   }
   report(output, joint, evidence);
+  if (ended) std::rethrow_exception(ended);
 }
 
 void examine_log(const Output& output, const DoctorArguments& arguments) {

@@ -18,6 +18,8 @@ constexpr double kValidFor_s = 0.5;
 constexpr double kRenewEvery_s = 0.1;
 // Beyond the time that a leg should take.
 constexpr double kPatience_s = 5.0;
+// A joint that rests a few counts off may stay there.
+constexpr double kArrived_rad = 1e-3;
 
 }  // namespace
 
@@ -62,7 +64,8 @@ void GuardedStrokes::begin(setpoint_v1 setpoint) {
 }
 
 bool GuardedStrokes::arrived(double target_rad) const {
-  return state().setpoint_position_rad == target_rad && state().setpoint_velocity_rad_s == 0.0;
+  return std::abs(state().setpoint_position_rad - target_rad) < kArrived_rad &&
+         state().setpoint_velocity_rad_s == 0.0;
 }
 
 void GuardedStrokes::check(std::optional<double> target_rad) {

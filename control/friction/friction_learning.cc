@@ -71,9 +71,10 @@ void FrictionLearning::learn(double feedback_Nm, double motor_velocity_rad_s, do
   const double along_Nm =
       elapsed_s * kFrictionRate_1_s * reciprocal_squares_ * counted_Nm * sign(motor_velocity_rad_s);
   for (std::size_t i = 0; i < count; ++i)
-    learned_.scale[i] = std::clamp(
-        learned_.scale[i] + along_Nm * weights_.weight[i] / rule_friction_Nm(i, stribeck, speed_rad_s),
-        kLeastScale, kMostScale);
+    if (rule_friction_Nm(i, stribeck, speed_rad_s) > 0.0)
+      learned_.scale[i] = std::clamp(
+          learned_.scale[i] + along_Nm * weights_.weight[i] / rule_friction_Nm(i, stribeck, speed_rad_s),
+          kLeastScale, kMostScale);
   blend();
 }
 

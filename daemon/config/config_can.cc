@@ -220,10 +220,11 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   drive.drive_mode = read_drive_mode(section, joint);
   if (drive.drive_mode == DriveMode::kVelocity && drive.units.velocity_rad_s_per_unit == 0.0)
     section.fail("drive_mode", "\"velocity\" needs velocity_rad_s_per_unit, the unit of 60FFh at the joint");
-  const double drive_loop_period_s =
-      section.number_or("drive_loop_period_s", std::min(kUsualDriveLoop_s, period_s_), {0.0, period_s_});
   if (drive.drive_mode == DriveMode::kPosition)
-    joint.loop.controller.drive_loop_period_s = drive_loop_period_s;
+    joint.loop.controller.drive_loop_period_s =
+        section.number_or("drive_loop_period_s", std::min(kUsualDriveLoop_s, period_s_), {0.0, period_s_});
+  else if (section.has("drive_loop_period_s"))
+    section.fail("drive_loop_period_s", "only drive_mode = \"position\" has it");
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);

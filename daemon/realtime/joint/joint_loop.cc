@@ -34,7 +34,12 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   joint_.notices = 0;
-  joint_.law.controller().begin_period(time.elapsed_periods, driving_share(joint_));
+  // A move keeps the share with which it began, whatever the sensor's noise. Paths and streams, which others share, have all of the torque.
+  if (joint_.ordered.goes_on())
+    driving_share_ = 1.0;
+  else if (record_.state.setpoint_velocity_rad_s == 0.0)
+    driving_share_ = driving_share(joint_);
+  joint_.law.controller().begin_period(time.elapsed_periods, driving_share_);
   take_orders(time);
   read_drive(time);
   check_reading(time);
@@ -83,7 +88,7 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
   const TemperatureCheck& temperature = joint_.drive.temperature();
-  if (driving_share(joint_) < 1.0) joint_.notice(Notice::kDerated);
+  if (driving_share_ < 1.0) joint_.notice(Notice::kDerated);
   if (joint_.mode.is(Mode::kOff)) return;
   if (temperature.hotter_than(joint_.config.limits.temperature_limit_C))
     return raise_fault(Fault::kTemperatureLimit, time);

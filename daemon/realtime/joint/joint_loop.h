@@ -69,6 +69,7 @@ class JointLoop {
   std::array<TableSlot, kTableSlots> tables_{};
   FlightRecorder* recorder_ = nullptr;
   StateRecord record_{};
+  double driving_share_ = 1.0;
 };
 
 }  // namespace strainwave
