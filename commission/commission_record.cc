@@ -15,6 +15,8 @@ namespace strainwave {
 
 namespace {
 
+constexpr std::size_t kMaxConfigurationBytes = 1U << 20U;
+
 using nlohmann::ordered_json;
 
 constexpr long long kFormat = 1;
@@ -150,6 +152,7 @@ std::string to_json(const CommissionRecord& record) {
   ordered_json json{{"format", kFormat},
                     {"joint", record.joint},
                     {"configuration", record.configuration},
+                    {"configuration_text", record.configuration_text},
                     {"simulated", record.simulated},
                     {"joint_time_s", record.joint_time_s}};
   if (record.temperature_C) json["temperature_C"] = *record.temperature_C;
@@ -174,6 +177,7 @@ CommissionRecord parse_commission_record(std::string_view text, const std::strin
   CommissionRecord record;
   record.joint = object.text("joint", kMaxTextBytes);
   record.configuration = object.text("configuration", kMaxTextBytes);
+  record.configuration_text = object.text("configuration_text", kMaxConfigurationBytes);
   record.simulated = object.boolean("simulated");
   record.joint_time_s = object.number("joint_time_s");
   record.temperature_C = number_if_there(object, "temperature_C");

@@ -50,7 +50,8 @@ struct ResponseModel {
 
 struct CommissionRecord {
   std::string joint;
-  std::string configuration;  ///< path of the file
+  std::string configuration;       ///< path of the file
+  std::string configuration_text;  ///< what was in it
   bool simulated = false;
   double joint_time_s = 0.0;  ///< in which the drive was enabled, of all runs
   std::optional<double> temperature_C;

@@ -48,11 +48,12 @@ std::string text_of(const CommissionValue& value) {
 Commissioning::Commissioning(const CommissioningConfig& config, std::optional<CommissionRecord> before)
     : config_(config) {
   (void)plan_strokes(config.excitation);
-  if (before && before->joint == config.joint && before->configuration == config.configuration)
+  if (before && before->joint == config.joint && before->configuration_text == config.configuration_text)
     record_ = std::move(*before);
   std::erase_if(record_.steps, [](const CommissionStep& step) { return step.outcome != StepOutcome::kDone; });
   record_.joint = config.joint;
   record_.configuration = config.configuration;
+  record_.configuration_text = config.configuration_text;
   record_.simulated = config.simulated;
   record_.problem.clear();
 }
@@ -67,8 +68,12 @@ std::optional<std::string> Commissioning::begin() {
   begun_ = true;
   if (step_ == Step::kEnd || !record_.problem.empty()) return std::nullopt;
   const bool pure = step_ == Step::kIdentity || step_ == Step::kComparison;
-  resumed_ = !pure && done(name_of(step_));
-  if (pure) std::erase_if(record_.steps, [&](const CommissionStep& s) { return s.name == name_of(step_); });
+  // A motor may have been wired anew since: what moves under feedback comes after the ramps of the same run.
+  const bool ramps = part_of(step_) == ExcitationPart::kRamps;
+  const bool moves_later = !done(name_of(Step::kFriction)) || !done(name_of(Step::kMotion));
+  resumed_ = !pure && done(name_of(step_)) && !(ramps && moves_later);
+  if (!resumed_)
+    std::erase_if(record_.steps, [&](const CommissionStep& s) { return s.name == name_of(step_); });
   const bool seen = step_ == Step::kBreakaway && !ramps_.samples.empty();
   if (!pure && !resumed_ && !seen) {
     ExcitationConfig motion = config_.excitation;
@@ -107,7 +112,7 @@ ActuatorCommand Commissioning::step(const ActuatorReading& reading) {
 
 void Commissioning::abort(const std::string& why) {
   if (excitation_ != nullptr) excitation_->abort(why);
-  if (excitation_ == nullptr || excitation_->ended()) record_.problem = why;
+  if ((excitation_ == nullptr || excitation_->ended()) && record_.problem.empty()) record_.problem = why;
 }
 
 std::string Commissioning::finish() {
@@ -136,7 +141,7 @@ std::string Commissioning::finish() {
   if (failure.empty() || step_ == Step::kBreakaway || step_ == Step::kFriction) text = evaluate();
   if (!failure.empty()) {
     if (step_ == Step::kDirection && failure.find("the other way") != std::string::npos)
-      failure = config_.direction_key + " is wrong: " + failure;
+      failure = config_.direction_key + ": " + failure;
     record_.problem = failure;
   }
   const bool good = record_.problem.empty();
@@ -175,8 +180,7 @@ std::string Commissioning::find_which_way() {
   if (!direction)
     record_.problem = "the motion is too small to show which way the torque acts: is a brake shut?";
   else if (*direction < 0)
-    record_.problem =
-        config_.direction_key + " is wrong: positive torque moves the joint to smaller positions";
+    record_.problem = config_.direction_key + ": positive torque moves the joint to smaller positions";
   return "positive torque moves the joint to larger positions";
 }
 

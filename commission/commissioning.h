@@ -25,10 +25,11 @@ namespace strainwave {
 
 struct CommissioningConfig {
   std::string joint;
-  std::string configuration;  ///< path of the file
+  std::string configuration;       ///< path of the file
+  std::string configuration_text;  ///< what is in it
   bool simulated = false;
   std::string identity;         ///< what start-up of the drive found
-  std::string direction_key;    ///< "can.direction": where a wrong direction is put right
+  std::string direction_key;    ///< where a wrong direction is put right, in words
   ExcitationConfig excitation;  ///< its part is set by the step
   ToldJoint told;
   ConfiguredNumbers configured;

@@ -16,17 +16,9 @@ namespace {
 
 // Of the torque of breaking away, sliding takes between this, warm, and almost all, cold: data/friction_parameters.csv.
 constexpr double kSlidingShare = 0.5;
-// Of the way between the limits, at either end: what braking and the guard need.
-constexpr double kMargin = 0.1;
 // Ramps to the torque limit in this time: a count of delay between order and motion is then a small part of the torque.
 constexpr double kRamp_s = 3.0;
 constexpr std::size_t kRamps = 4;  // both ways, twice
-constexpr int kSpeeds = 4;
-constexpr int kShakenStrokes = 10;
-// Steady strokes last at most so long, and at least these motor turns.
-constexpr double kLongestStroke_s = 4.0;
-constexpr double kLeastTurns = 2.3;
-constexpr double kTopSpeedShare = 0.7;  // of the speed limit
 // The speed loop's bandwidth. Its speed is a mean over 32 ms, which leaves little of the gear's resonance.
 constexpr double kBandwidth_rad_s = 10.0;
 constexpr double kIntegral_per_s = 4.0;
@@ -43,65 +35,17 @@ constexpr double kFirstShake_rad_s2 = 1.0;
 // Three standard deviations of the speed's swing take this share of what is between the stroke's speed and sticking.
 constexpr double kSwingShare = 0.8;
 constexpr double kBraked_rad_s = 0.01;
-constexpr long kLongestBraking = 1500;
-
-/// Planned positions have this from the limits.
-double margin_rad(const ExcitationLimits& limits) {
-  return kMargin * (limits.position_max_rad - limits.position_min_rad);
-}
-
-double shaken_speed_rad_s(const ExcitationConfig& config, double way_rad) {
-  const double sliding = sliding_speed_rad_s(config.gear_ratio);
-  return std::clamp(way_rad / 1.5, std::min(3.0 * sliding, kTopSpeedShare * config.limits.speed_rad_s),
-                    0.5 * config.limits.speed_rad_s);
-}
+constexpr double kLongestBraking_s = 1.5;
+// Of the speed limit: a joint that speeds up by so much while it is braked has its feedback turned round.
+constexpr double kRunsAway = 0.25;
+// Of the torque limit: a joint that sticks at this much is blocked.
+constexpr double kBlocked = 0.95;
 
 }  // namespace
 
-std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
-  const ExcitationLimits& limits = config.limits;
-  const double low = limits.position_min_rad + margin_rad(limits);
-  const double high = limits.position_max_rad - margin_rad(limits);
-  const double turn_rad = kTurn_rad / config.gear_ratio;
-  if (config.start_rad < low || config.start_rad > high)
-    throw InputError("commission", "position_rad", std::to_string(config.start_rad),
-                     "must be within " + std::to_string(low) + " to " + std::to_string(high) +
-                         " rad, a tenth inside of joint.limits: move the joint there");
-  if (high - low < kLeastTurns * turn_rad)
-    throw InputError("joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
-                     "must be at least " + std::to_string(kLeastTurns * turn_rad / (1.0 - 2.0 * kMargin)) +
-                         " rad above position_min_rad: the motor must turn twice");
-  const double slowest = 1.5 * sliding_speed_rad_s(config.gear_ratio);
-  const double fastest = std::min(kTopSpeedShare * limits.speed_rad_s,
-                                  std::sqrt(0.25 * limits.acceleration_rad_s2 * (high - low)));
-  if (fastest < 1.2 * slowest)
-    throw InputError("joint.limits", "speed_limit_rad_s", std::to_string(limits.speed_rad_s),
-                     "must be at least " + std::to_string(1.2 * slowest / kTopSpeedShare) +
-                         " rad/s: below, the motor sticks and slips");
-  std::vector<Stroke> strokes;
-  if (config.part == ExcitationPart::kRamps) return strokes;
-  const double middle = 0.5 * (low + high);
-  // Slowly and gently first: the inertia that this shows is needed to turn round in time.
-  for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
-  const int speeds = config.part == ExcitationPart::kShakenStrokes ? 0 : kSpeeds;
-  for (int i = 0; i < speeds; ++i) {
-    const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kSpeeds - 1));
-    const double ramps = speed * speed / limits.acceleration_rad_s2;
-    const double way =
-        std::min(high - low, std::max(kLeastTurns * turn_rad, speed * kLongestStroke_s) + ramps);
-    strokes.push_back({middle - 0.5 * way, speed, false});
-    strokes.push_back({middle + 0.5 * way, speed, false});
-    strokes.push_back({middle - 0.5 * way, speed, false});
-  }
-  const int shaken = config.part == ExcitationPart::kSteadyStrokes ? 0 : kShakenStrokes;
-  for (int i = 0; i < shaken; ++i)
-    strokes.push_back({i % 2 == 0 ? high : low, shaken_speed_rad_s(config, high - low), true});
-  return strokes;
-}
-
 Excitation::Excitation(const ExcitationConfig& config)
     : config_(config),
-      guard_(config.limits),
+      guard_(config.limits, config.period_s),
       quick_speed_(config.period_s, kQuickMean),
       mean_speed_(config.period_s, kMean),
       strokes_(plan_strokes(config)),
@@ -112,12 +56,22 @@ Excitation::Excitation(const ExcitationConfig& config)
   trace_.samples.reserve(static_cast<std::size_t>(config.longest_s / config.period_s));
 }
 
-void Excitation::abort(const std::string& why) {
-  if (stage_ == Stage::kDone || stage_ == Stage::kBraking) return;
-  problem_ = why;
+void Excitation::begin_braking() {
   stage_ = Stage::kBraking;
   stage_periods_ = 0;
   planned_rad_s_ = 0.0;
+  braked_from_rad_s_ = std::abs(quick_rad_s_);
+}
+
+bool Excitation::runs_away() const {
+  return std::abs(quick_rad_s_) > braked_from_rad_s_ + kRunsAway * config_.limits.speed_rad_s;
+}
+
+void Excitation::abort(const std::string& why) {
+  if (stage_ == Stage::kDone) return;
+  if (problem_.empty()) problem_ = why;
+  if (stage_ == Stage::kBraking) return;
+  begin_braking();
   hold_Nm_ = {};
 }
 
@@ -125,9 +79,12 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
   if (stage_ == Stage::kDone) return {};
   const double speed = mean_speed_.step(reading.joint_position_rad);
   quick_rad_s_ = quick_speed_.step(reading.joint_position_rad);
-  if (stage_ != Stage::kBraking)
-    if (const std::optional<std::string> wrong = guard_.judge(reading, quick_rad_s_, true)) abort(*wrong);
-  if (reading.fault != ActuatorFault::kNone ||
+  const bool braked = stage_ == Stage::kBraking;
+  const std::optional<std::string> wrong = guard_.judge(reading, quick_rad_s_, true);
+  if (wrong && (!braked || guard_.blind())) abort(*wrong);
+  if (braked && runs_away()) abort("the joint speeds up while it is braked");
+  // Then it is disabled at once, not braked.
+  if (reading.fault != ActuatorFault::kNone || guard_.blind() || (braked && runs_away()) ||
       (stage_ == Stage::kBraking && reading.drive_state != DriveState::kEnabled)) {
     stage_ = Stage::kDone;
     return {};
@@ -156,7 +113,9 @@ double Excitation::torque_Nm(double position_rad, double speed_rad_s) {
     case Stage::kReturning:
       return stroke_Nm(position_rad, speed_rad_s);
     case Stage::kBraking:
-      if (std::abs(speed_rad_s) < kBraked_rad_s || stage_periods_ > kLongestBraking) stage_ = Stage::kDone;
+      if (std::abs(speed_rad_s) < kBraked_rad_s ||
+          static_cast<double>(stage_periods_) * config_.period_s > kLongestBraking_s)
+        stage_ = Stage::kDone;
       return follow_Nm(speed_rad_s, 0.0);
     case Stage::kDone:
       break;
@@ -168,7 +127,11 @@ double Excitation::torque_Nm(double position_rad, double speed_rad_s) {
 double Excitation::ramp_Nm(double position_rad) {
   const double way = done_ % 2 == 0 ? 1.0 : -1.0;
   const long rest = std::lround(0.25 / config_.period_s);
-  if (stage_periods_ <= rest) return 0.0;  // the joint comes to rest
+  if (stage_periods_ <= rest) {  // the joint comes to rest
+    if (done_ == 0 && std::abs(quick_rad_s_) > sliding_speed_rad_s(config_.gear_ratio))
+      abort(fmt::format("the joint moves without torque at {:.4f} rad: it falls, or is moved", position_rad));
+    return 0.0;
+  }
   const double torque = way * config_.limits.torque_Nm * config_.period_s / kRamp_s *
                         static_cast<double>(stage_periods_ - rest);
   if (std::abs(torque) > 0.95 * config_.limits.torque_Nm) {
@@ -181,7 +144,7 @@ double Excitation::ramp_Nm(double position_rad) {
   if (std::abs(quick_rad_s_) < sliding_speed_rad_s(config_.gear_ratio)) return torque;
   if (quick_rad_s_ * way < 0.0) {
     abort(fmt::format(
-        "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad: change the drive's direction",
+        "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad; a load that falls does so, too",
         torque, position_rad));
     return 0.0;
   }
@@ -189,7 +152,8 @@ double Excitation::ramp_Nm(double position_rad) {
   ++done_;
   stage_periods_ = 0;
   if (done_ == kRamps) {
-    stage_ = strokes_.empty() ? Stage::kBraking : Stage::kStroking;
+    stage_ = Stage::kStroking;
+    if (strokes_.empty()) begin_braking();
     done_ = 0;
   }
   return 0.0;
@@ -222,8 +186,7 @@ double Excitation::stroke_Nm(double position_rad, double speed_rad_s) {
 void Excitation::next_stroke() {
   stage_periods_ = 0;
   if (stage_ == Stage::kReturning) {
-    stage_ = Stage::kBraking;
-    planned_rad_s_ = 0.0;
+    begin_braking();
     return;
   }
   if (strokes_[done_].shaken) adapt_shaking();
@@ -246,6 +209,11 @@ double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   const double limit = config_.limits.torque_Nm;
   if (std::abs(quick_rad_s_) < slides) {
     sticking_Nm_ += way * limit * config_.period_s / kRamp_s;
+    if (std::abs(hold + sticking_Nm_) > kBlocked * limit)
+      abort(
+          fmt::format("the joint does not move at {:.1f} N.m: something is in its way, or the encoder stands "
+                      "still",
+                      hold + sticking_Nm_));
   } else {
     hold += kStickingShare * sticking_Nm_ + gain * kIntegral_per_s * error * config_.period_s;
     sticking_Nm_ = 0.0;

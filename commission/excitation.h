@@ -67,6 +67,8 @@ class Excitation {
 
  private:
   double torque_Nm(double position_rad, double speed_rad_s);
+  void begin_braking();
+  bool runs_away() const;
   double ramp_Nm(double position_rad);
   double stroke_Nm(double position_rad, double speed_rad_s);
   double follow_Nm(double speed_rad_s, double acceleration_rad_s2);
@@ -87,6 +89,7 @@ class Excitation {
   long stage_periods_ = 0;           ///< since the ramp, stroke or stage began
   double quick_rad_s_ = 0.0;         ///< over few periods, for what must be seen soon
   double planned_rad_s_ = 0.0;       ///< speed that is followed
+  double braked_from_rad_s_ = 0.0;   ///< its size when braking began
   double inertia_kgm2_;              ///< of motor and link
   std::array<double, 2> hold_Nm_{};  ///< integral of the speed's error, by direction: friction and load
   double sticking_Nm_ = 0.0;         ///< against stiction

@@ -2,6 +2,7 @@
 // What a commissioned joint may do. It judges every reading; the excitation brakes and stops where it finds something. Joint side, SI.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct ExcitationLimits {
   double speed_rad_s = 0.0;
   double acceleration_rad_s2 = 0.0;  ///< of the planned motion
   double torque_Nm = 0.0;
+  double temperature_C = std::numeric_limits<double>::infinity();
 };
 
 /// Speed as a mean over periods.
@@ -33,10 +35,13 @@ class MeanSpeed {
 
 class MotionGuard {
  public:
-  explicit MotionGuard(const ExcitationLimits& limits) : limits_(limits) {}
+  MotionGuard(const ExcitationLimits& limits, double period_s) : limits_(limits), period_s_(period_s) {}
 
   /// What is wrong in this period, where, and what is allowed; nothing while all is well. `enabled` is whether torque is ordered.
   std::optional<std::string> judge(const ActuatorReading& reading, double speed_rad_s, bool enabled);
+
+  /// Of the last reading: its position cannot be believed, so nothing may be braked by it.
+  bool blind() const { return blind_; }
 
   const ExcitationLimits& limits() const { return limits_; }
 
@@ -45,7 +50,12 @@ class MotionGuard {
   static constexpr int kMissingPeriods = 4;
 
  private:
+  std::optional<std::string> judge_position(const ActuatorReading& reading);
+
   ExcitationLimits limits_;
+  double period_s_;
+  std::optional<double> last_position_rad_;
+  bool blind_ = false;
   bool was_enabled_ = false;
   int enabling_periods_ = 0;
   int missing_periods_ = 0;

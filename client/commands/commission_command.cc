@@ -98,7 +98,28 @@ class CommissionRun {
     return false;
   }
 
+  /// A design of another joint, or of an older measurement, is never taken for this one's.
+  void require_own_folder() const {
+    const std::optional<CommissionRecord> before = read_commission_record(arguments_.out);
+    const auto refuse = [&](const std::filesystem::path& path, const std::string& what) {
+      throw ClientError(ExitStatus::kRefused, path.string() + ": " + what,
+                        {arguments_.joint, {}, {}, {}, {}});
+    };
+    if (before && before->joint != arguments_.joint)
+      refuse(file("commission.json"), "is of joint " + before->joint + ": name another folder with --out");
+    if (std::filesystem::exists(configuration()) &&
+        std::filesystem::equivalent(configuration(), arguments_.config))
+      refuse(configuration(), "would be written over: name another folder with --out");
+    if (before && before->configuration_text == read_text_file(arguments_.config)) return;
+    for (const std::filesystem::path& made : {file("friction.json"), file("table.json"), configuration()})
+      if (std::filesystem::exists(made))
+        refuse(made,
+               "is of another measurement, and the joint is to be measured anew: delete it, or name "
+               "another folder with --out");
+  }
+
   void measure() {
+    require_own_folder();
     try {
       run_program("measuring", "strainwaved",
                   {"--commission", arguments_.joint, "--config", arguments_.config.string(), "--out",

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
+#include "base/text_file.h"
 #include "control/joint/gear_catalogue.h"
 #include "daemon/assembly.h"
 #include "daemon/commission/commission_loop.h"
@@ -59,6 +60,17 @@ void require_commissionable(const JointConfig& joint) {
         "[joint.homing], set encoder = \"absolute\", and give limits around where the joint stands");
 }
 
+/// Of a real joint.
+void require_watched(const DaemonConfig& config, const Interruption& interruption) {
+  if (!interruption.has_terminal())
+    throw InputError(
+        "--commission: standard input is no terminal: run it in one, since any key must end the motion");
+  for (const JointConfig& joint : config.joints)
+    if (joint.driver == "simulated")
+      throw InputError(joint.name +
+                       ": joint.driver = \"simulated\" beside a real joint: remove it for this run");
+}
+
 ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
   const JointControllerConfig& controller = joint.loop.controller;
   ExcitationConfig excitation;
@@ -68,6 +80,7 @@ ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
                        controller.torque_limit_Nm};
   if (const Gear* const gear = find_gear(joint.plant.gear.view()))
     excitation.limits.torque_Nm = std::min(excitation.limits.torque_Nm, gear->repeated_peak_torque_Nm);
+  excitation.limits.temperature_C = joint.loop.limits.temperature_limit_C;
   excitation.period_s = period_s;
   excitation.encoder_resolution_rad = controller.encoder_resolution_rad;
   excitation.gear_ratio = joint.plant.gear_ratio;
@@ -80,14 +93,6 @@ void begin_at(double position_rad, ExcitationConfig& excitation) {
   ExcitationLimits& limits = excitation.limits;
   limits.position_min_rad = std::max(limits.position_min_rad, position_rad - kMostWay_rad);
   limits.position_max_rad = std::min(limits.position_max_rad, position_rad + kMostWay_rad);
-}
-
-/// An earlier run's, unless the configuration has changed since.
-std::optional<CommissionRecord> record_before(const fs::path& config_file, const fs::path& directory) {
-  std::optional<CommissionRecord> record = read_commission_record(directory);
-  if (record && fs::last_write_time(config_file) > fs::last_write_time(directory / "commission.json"))
-    record.reset();
-  return record;
 }
 
 std::string identity_of(const std::vector<std::string>& lines, bool simulated) {
@@ -107,7 +112,11 @@ CommissioningConfig commissioning_config(const DaemonConfig& config, std::size_t
   CommissioningConfig made;
   made.joint = joint.name;
   made.simulated = joint.driver == "simulated";
-  made.direction_key = joint.driver == "gpio" ? "gpio.torque.reversed" : joint.driver + ".direction";
+  made.direction_key =
+      joint.driver == "gpio"
+          ? "gpio.torque.reversed is wrong"
+          : "torque acts against position; correct the sign of one of them in the drive, since " +
+                joint.driver + ".direction turns both";
   made.excitation = excitation_config(joint, config.loop.period_s);
   made.told = {joint.plant.gear_ratio, link.spring,
                joint.plant.gear_ratio < kFineRatio ? 2.0 * kArcMinute_rad : kArcMinute_rad,
@@ -130,8 +139,10 @@ ExitStatus commission_joint(const DaemonConfig& config, const fs::path& config_f
   const std::size_t index = find_joint(config, joint);
   CommissioningConfig what = commissioning_config(config, index);
   what.configuration = config_file.string();
-  std::optional<CommissionRecord> before = record_before(config_file, directory);
+  what.configuration_text = read_text_file(config_file);
+  std::optional<CommissionRecord> before = read_commission_record(directory);
   Interruption interruption;
+  if (!what.simulated) require_watched(config, interruption);
   const std::vector<InstanceLock> locks = lock_drives(config);
   CommissionLoop loop(config.loop, assemble_loop(config), index, what.simulated);
   if (!loop.real_time_refusal().empty())
@@ -140,21 +151,23 @@ ExitStatus commission_joint(const DaemonConfig& config, const fs::path& config_f
   begin_at(loop.first_position_rad(), what.excitation);
   Commissioning commissioning(what, std::move(before));
   out << joint << ": commissioning; any key ends it\n";
-  bool interrupted = false;
-  while (const std::optional<std::string> announced = commissioning.begin()) {
+  const char* interrupted = nullptr;
+  while (interrupted == nullptr) {
+    const std::optional<std::string> announced = commissioning.begin();
+    if (!announced) break;
     out << printable(*announced) << std::endl;
-    interrupted = loop.run(commissioning, interruption) || interrupted;
+    interrupted = loop.run(commissioning, interruption);
     out << "  " << printable(commissioning.finish()) << std::endl;
-    write_commission_record(directory, commissioning.record());
-    if (!interrupted) {
-      const char* const why = interruption.wait(0);
-      interrupted = why != nullptr;
-      if (interrupted) commissioning.abort(why);
+    if (interrupted == nullptr) interrupted = interruption.wait(0);
+    if (interrupted != nullptr) {
+      commissioning.abort(interrupted);
+      out << "ended: " << interrupted << '\n';
     }
+    write_commission_record(directory, commissioning.record());
   }
   write_commission_record(directory, commissioning.record());
   out << "written: " << printable((directory / "commission.json").string()) << '\n';
-  if (interrupted) return ExitStatus::kInterrupted;
+  if (interrupted != nullptr) return ExitStatus::kInterrupted;
   return commissioning.record().problem.empty() ? ExitStatus::kDone : ExitStatus::kRefused;
 }
 

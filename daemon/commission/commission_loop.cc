@@ -105,13 +105,13 @@ double CommissionLoop::first_position_rad() {
   return position_rad_.load();
 }
 
-bool CommissionLoop::run(Commissioning& commissioning, Interruption& interruption) {
-  bool interrupted = false;
+const char* CommissionLoop::run(Commissioning& commissioning, Interruption& interruption) {
+  const char* interrupted = nullptr;
   moved_.store(commissioning.moves() ? &commissioning : nullptr, std::memory_order_release);
   while (moved_.load(std::memory_order_acquire) != nullptr) {
     for (int i = 0; simulated_ && i < kSimulatedPeriods && moved_.load() != nullptr; ++i) simulate_period();
     if (const char* const why = interruption.wait(simulated_ ? 0 : kLook_ms)) {
-      interrupted = true;
+      interrupted = why;
       interruption_.store(why);
     }
   }

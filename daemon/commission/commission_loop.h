@@ -25,8 +25,8 @@ class CommissionLoop {
 
   /// Where the joint stands. Throws NotAchieved where the drive sends no position within 5 s, or has a fault.
   double first_position_rad();
-  /// Until the step of `commissioning` moves nothing any more. What interrupts it ends it. True: it was interrupted.
-  bool run(Commissioning& commissioning, Interruption& interruption);
+  /// Until the step of `commissioning` moves nothing any more. What interrupts it ends it, and is returned.
+  const char* run(Commissioning& commissioning, Interruption& interruption);
 
   /// Lines about the drives since the last call.
   std::vector<std::string> take_messages();

@@ -8,11 +8,13 @@
 
 namespace strainwave {
 
-Interruption::Interruption() {
+Interruption::Interruption() : parent_(::getppid()) {
   termios terminal{};
   if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &terminal) != 0) return;
   before_ = terminal;
-  terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  // Every key is one that ends the motion: Ctrl-C, Ctrl-S and Ctrl-Z, too.
+  terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG | IEXTEN);
+  terminal.c_iflag &= ~static_cast<tcflag_t>(IXON);
   ::tcsetattr(STDIN_FILENO, TCSANOW, &terminal);
 }
 
@@ -22,6 +24,7 @@ Interruption::~Interruption() {
 
 const char* Interruption::wait(int timeout_ms) noexcept {
   std::array<pollfd, 2> descriptors{{{signals_.descriptor(), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
+  if (::getppid() != parent_) return "the program that began it is gone";
   if (::poll(descriptors.data(), before_ ? 2 : 1, timeout_ms) <= 0) return nullptr;
   if (signals_.take()) return "a signal asked for the end";
   char key = 0;

@@ -2,6 +2,7 @@
 // What ends a program that a user watches: a signal, or any key where standard input is a terminal. Not real-time.
 #pragma once
 
+#include <sys/types.h>
 #include <termios.h>
 
 #include <optional>
@@ -20,9 +21,11 @@ class Interruption {
 
   /// Waits for at most so long; what came, in words, or null. A constant text.
   const char* wait(int timeout_ms) noexcept;
+  bool has_terminal() const noexcept { return before_.has_value(); }
 
  private:
   EndSignals signals_;
+  ::pid_t parent_;                 ///< that began this program
   std::optional<termios> before_;  ///< of the terminal; nothing: standard input is none
 };
 

@@ -16,6 +16,7 @@ CommissionRecord full_record() {
   CommissionRecord record;
   record.joint = "elbow";
   record.configuration = "arm.toml";
+  record.configuration_text = "[[joint]]\nname = \"elbow\"\n";
   record.simulated = true;
   record.joint_time_s = 121.5;
   record.temperature_C = 21.5;

@@ -25,6 +25,7 @@ CommissioningConfig configure(const RandomJoint& joint) {
   CommissioningConfig config;
   config.joint = "elbow";
   config.configuration = "arm.toml";
+  config.configuration_text = "[[joint]]\n";
   config.simulated = true;
   config.identity = "simulated drive";
   config.direction_key = "can.direction";
@@ -226,7 +227,7 @@ TEST(Commissioning, StopsAWrongDirectionBeforeAnythingFaster) {
   Commissioning commissioning(configure(joint));
   bench.run(commissioning);
   const CommissionRecord& record = commissioning.record();
-  EXPECT_TRUE(record.problem.starts_with("can.direction is wrong")) << record.problem;
+  EXPECT_TRUE(record.problem.starts_with("can.direction: ")) << record.problem;
   EXPECT_EQ(step_of(record, "direction").outcome, StepOutcome::kFailed);
   EXPECT_EQ(step_of(record, "friction").outcome, StepOutcome::kSkipped);
   EXPECT_LT(bench.speed_rad_s(), 0.3 * joint.excitation.limits.speed_rad_s);
@@ -249,8 +250,9 @@ TEST(Commissioning, BrakesAndDisablesWhenItIsAbortedAndGoesOnFromThere) {
   again.run(second);
   EXPECT_EQ(second.record().problem, "");
   EXPECT_EQ(second.record().steps.size(), 6U);
-  for (const char* name : {"direction", "breakaway", "friction"})
-    EXPECT_NE(again.lines().find(std::string(name) + ": done before, not run again"), std::string::npos);
+  EXPECT_NE(again.lines().find("friction: done before, not run again"), std::string::npos);
+  EXPECT_EQ(again.lines().find("direction: done before"), std::string::npos)
+      << "the motor may have been wired anew: what moves by feedback comes after the ramps";
   EXPECT_GE(second.record().friction.size(), 3U) << "the first run's";
   EXPECT_GT(second.record().joint_time_s, first.record().joint_time_s);
 }

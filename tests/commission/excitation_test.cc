@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -55,10 +56,8 @@ TEST(Excitation, EndsWhereTorqueMovesTheJointTheOtherWay) {
 TEST(Excitation, EndsWithTheNumbersWhereTheJointIsOutsideItsLimits) {
   const RandomJoint joint = random_joint(2);
   Excitation excitation(joint.excitation);
-  excitation.step(reading_at(joint.excitation.start_rad));
   excitation.step(reading_at(joint.excitation.limits.position_max_rad + 0.01));
   EXPECT_NE(excitation.problem().find("outside"), std::string::npos) << excitation.problem();
-  EXPECT_EQ(excitation.stage(), Excitation::Stage::kBraking);
 }
 
 TEST(Excitation, EndsAtOnceWithAFaultOfTheDrive) {
@@ -83,6 +82,72 @@ TEST(Excitation, BrakesBeforeItEndsWhenItIsAborted) {
   EXPECT_TRUE(excitation.ended());
   EXPECT_EQ(excitation.problem(), "a key was pressed");
   EXPECT_LT(std::abs(drive.plant().state().velocity_rad_s), 0.2 * joint.excitation.limits.speed_rad_s);
+}
+
+TEST(Excitation, DisablesAtOnceWhereThePositionJumps) {
+  const RandomJoint joint = random_joint(2);
+  Excitation excitation(joint.excitation);
+  excitation.step(reading_at(joint.excitation.start_rad));
+  EXPECT_FALSE(excitation.step(reading_at(joint.excitation.start_rad + 0.1)).enable)
+      << "braking needs a position";
+  EXPECT_NE(excitation.problem().find("jumped"), std::string::npos) << excitation.problem();
+}
+
+TEST(Excitation, EndsWhereTheJointMovesWithoutTorque) {
+  const RandomJoint joint = random_joint(2);
+  Excitation excitation(joint.excitation);
+  double position_rad = joint.excitation.start_rad;
+  for (int k = 0; k < 200 && excitation.problem().empty(); ++k)
+    excitation.step(reading_at(position_rad -= 0.3e-3 * joint.excitation.limits.speed_rad_s));
+  EXPECT_NE(excitation.problem().find("without torque"), std::string::npos) << excitation.problem();
+}
+
+// A hand in the way, or an encoder that stands still.
+TEST(Excitation, EndsAStrokeInWhichTheJointDoesNotMove) {
+  ExcitationConfig config = random_joint(2).excitation;
+  config.part = ExcitationPart::kSteadyStrokes;
+  Excitation excitation(config);
+  int periods = 0;
+  for (; periods < 60'000 && excitation.problem().empty(); ++periods)
+    excitation.step(reading_at(config.start_rad));
+  EXPECT_NE(excitation.problem().find("does not move"), std::string::npos) << excitation.problem();
+  EXPECT_LT(periods * config.period_s, 4.0);
+}
+
+TEST(Excitation, IsAbortedWhileItBrakesAtItsRegularEnd) {
+  const RandomJoint joint = random_joint(2);
+  ExcitationConfig config = joint.excitation;
+  config.part = ExcitationPart::kRamps;
+  SimulatedActuator drive(joint.drive);
+  Excitation excitation(config);
+  for (std::int64_t k = 0; k < 30'000 && !excitation.ended(); ++k) {
+    drive.write(excitation.step(drive.read(k * 1'000'000)));
+    if (excitation.stage() == Excitation::Stage::kBraking) excitation.abort("a key was pressed");
+  }
+  EXPECT_EQ(excitation.problem(), "a key was pressed");
+}
+
+// Feedback that is turned round would drive what it is to brake.
+TEST(Excitation, DisablesAJointThatSpeedsUpWhileItIsBraked) {
+  const RandomJoint joint = random_joint(2);
+  SimulatedActuator drive(joint.drive);
+  Excitation excitation(joint.excitation);
+  std::int64_t k = 0;
+  for (; k < 60'000 && excitation.stage() != Excitation::Stage::kStroking; ++k)
+    drive.write(excitation.step(drive.read(k * 1'000'000)));
+  for (const std::int64_t end = k + 1'000; k < end; ++k)
+    drive.write(excitation.step(drive.read(k * 1'000'000)));
+  const double from_rad_s = std::abs(drive.plant().state().velocity_rad_s);
+  excitation.abort("a key was pressed");
+  double most_rad_s = 0.0;
+  for (const std::int64_t end = k + 3'000; k < end && !excitation.ended(); ++k) {
+    ActuatorCommand command = excitation.step(drive.read(k * 1'000'000));
+    command.torque_Nm *= -20.0;  // more than friction
+    drive.write(command);
+    most_rad_s = std::max(most_rad_s, std::abs(drive.plant().state().velocity_rad_s));
+  }
+  EXPECT_TRUE(excitation.ended());
+  EXPECT_LT(most_rad_s, from_rad_s + 0.5 * joint.excitation.limits.speed_rad_s);
 }
 
 TEST(Excitation, RefusesLimitsThatAreTooNarrowForTwoMotorTurns) {
