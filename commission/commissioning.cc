@@ -203,9 +203,9 @@ std::string Commissioning::find_friction_over_speed() {
         "no stretch of steady speed was long enough: give a larger range between the position limits";
     return "";
   }
-  std::string text = "measured";
+  std::string text = "measured, before the inertia is known:";
   for (const FrictionAtSpeed& point : record_.friction)
-    text += fmt::format("{} {} N.m at {:.3f} rad/s", text == "measured" ? "" : ",", text_of(point.torque_Nm),
+    text += fmt::format("{} {} N.m at {:.3f} rad/s", text.back() == ':' ? "" : ",", text_of(point.torque_Nm),
                         point.speed_rad_s);
   return text;
 }
