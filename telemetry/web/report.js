@@ -40,8 +40,10 @@ export function readReport(name, text) {
   const entries = Object.entries(report);
   // A healthy joint has a list without findings.
   if (!entries.some(([, value]) => Array.isArray(value))) throw new Error(expected);
-  const facts = entries.filter((entry) => !isTable(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);
-  const element = make('details', {}, make('summary', {}, name), make('p', {}, facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)));
+  const isFile = ([, value]) => typeof value === 'string' && value.includes('\n');
+  const facts = entries.filter((entry) => !isTable(entry) && !isFile(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);
+  const element = make('details', {}, make('summary', {}, name), make('p', {}, facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)),
+    ...entries.filter(isFile).map(([key, value]) => make('details', {}, make('summary', {}, words(key)), make('pre', {}, value))));
   element.open = true;
   return element;
 }

@@ -68,7 +68,7 @@ const steps = {
     await until(async () => (await page.$('#reports details')) !== null, 5);
     say(await page.$eval('#reports details', (report) => ({
       title: report.querySelector('summary').textContent, facts: report.querySelector('p').textContent, rows: [...report.querySelectorAll('tr')].map((row) => [...row.cells].map((cell) => cell.textContent)),
-      elements: report.querySelectorAll('img, script').length, connection: document.getElementById('connection').textContent,
+      files: [...report.querySelectorAll('pre')].map((file) => file.textContent), elements: report.querySelectorAll('img, script').length, connection: document.getElementById('connection').textContent,
     })));
   },
   async nonsense() {

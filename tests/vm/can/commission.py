@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""strainwaved --commission with a drive on a bus: it moves the joint in real time, and a key brakes and disables. Without the fit, which takes
+minutes of a virtual processor."""
+import json
+import os
+import pathlib
+import pty
+import subprocess
+import time
+import unittest
+
+from bench import CIA402, JOINT, Drive, daemon_toml, joint_toml, make_bus, show_and_exit, wait_until
+
+INTERRUPTED = 130
+
+
+def flexible_toml():
+    """With the spring of its gear, slowly, without its inertias and a gain table."""
+    text = joint_toml(section=CIA402, can='encoder_side = "motor"')
+    for before, after in (
+            ('model = "rigid"\ninertia_kgm2 = 0.089\n', 'model = "flexible"\ngear = "csf-17-50"\n'),
+            ('table = "rhs17-6006.json"\n', ''),
+            ('speed_limit_rad_s = 6.0', 'speed_limit_rad_s = 3.0')):
+        assert before in text, before
+        text = text.replace(before, after)
+    return daemon_toml([text])
+
+
+class Commissioning:
+    """A run in a terminal; its lines are in FOLDER.log."""
+
+    def __init__(self, folder):
+        pathlib.Path('joint.toml').write_text(flexible_toml())
+        self.log = pathlib.Path(f'{folder}.log')
+        self.keyboard, terminal = pty.openpty()
+        self.process = subprocess.Popen(['./strainwaved', '--config', 'joint.toml', '--commission', JOINT, '--out', folder],
+                                        stdin=terminal, stdout=self.log.open('w'), stderr=subprocess.STDOUT)
+        os.close(terminal)
+
+    def lines(self):
+        return self.log.read_text()
+
+
+def record(folder):
+    return json.loads((pathlib.Path(folder) / 'commission.json').read_text())
+
+
+class Commission(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        make_bus()
+
+    def test_a_key_brakes_and_disables(self):
+        drive = Drive()
+        run = Commissioning('interrupted')
+        wait_until(lambda: '\nfriction: ' in run.lines() or run.process.poll() is not None, 120, 'the strokes have begun')
+        time.sleep(5)
+        os.write(run.keyboard, b'\x13')  # Ctrl-S, as good as any
+        self.assertEqual(run.process.wait(20), INTERRUPTED, run.lines())
+        self.assertNotEqual(drive.report()['power'], 'OperationEnabled')
+        self.assertEqual(float(drive.report()['torque_Nm']), 0.0)
+        self.assertIsNone(drive.find('heartbeat-lost'))
+        found = record('interrupted')
+        self.assertEqual(found['problem'], 'a key was pressed')
+        outcomes = {step['name']: step['outcome'] for step in found['steps']}
+        self.assertEqual([outcomes[name] for name in ('identity', 'direction', 'breakaway', 'friction', 'motion')],
+                         ['done', 'done', 'done', 'failed', 'skipped'])
+        drive.end()
+
+    def test_a_real_joint_is_not_moved_without_a_terminal(self):
+        pathlib.Path('joint.toml').write_text(flexible_toml())
+        run = subprocess.run(['./strainwaved', '--config', 'joint.toml', '--commission', JOINT, '--out', 'none'],
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn('no terminal', run.stdout + run.stderr)
+
+
+show_and_exit([Commission])
