@@ -14,43 +14,85 @@
 #include "daemon/start_check.h"
 #include "daemon/supervisor.h"
 
+namespace strainwave {
 namespace {
 
-strainwave::ExitStatus as_status(bool good) {
-  return good ? strainwave::ExitStatus::kDone : strainwave::ExitStatus::kRefused;
+struct Arguments {
+  std::string config;
+  bool check = false;
+  bool check_lines = false;
+  bool check_drives = false;
+  std::string data_sheet;
+  std::string commissioned;
+  std::string directory;
+  std::string gateway_socket;
+
+  bool drives_alone() const {
+    return check_lines || check_drives || !data_sheet.empty() || !commissioned.empty();
+  }
+};
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.add_option("--config", arguments.config, "configuration file (TOML)")->required();
+  app.add_flag("--check", arguments.check,
+               "load every file, report whether the daemon would start here, and exit");
+  app.add_flag("--check-lines", arguments.check_lines,
+               "list the digital lines of all joints with their holders, and exit");
+  app.add_flag("--check-drives", arguments.check_drives,
+               "set up and check the drives as at start-up, enable none, and exit");
+  app.add_option(
+      "--check-data-sheet", arguments.data_sheet,
+      "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and exit");
+  CLI::Option* const commission =
+      app.add_option("--commission", arguments.commissioned,
+                     "move this joint inside its limits to learn what it is, and exit");
+  CLI::Option* const out =
+      app.add_option("--out", arguments.directory, "folder for commission.json, what --commission found");
+  commission->needs(out);
+  out->needs(commission);
+  app.add_option(
+      "--gateway-socket", arguments.gateway_socket,
+      "let the service manager start the gateway, as a user of its own, by a connection to this socket");
+}
+
+ExitStatus as_status(bool good) {
+  return good ? ExitStatus::kDone : ExitStatus::kRefused;
+}
+
+ExitStatus run(const Arguments& arguments) {
+  const ConfigUse use = !arguments.commissioned.empty() ? ConfigUse::kCommission
+                        : arguments.drives_alone()      ? ConfigUse::kCheckDrives
+                                                        : ConfigUse::kRun;
+  DaemonConfig config = read_config(arguments.config, use);
+  config.gateway_socket = arguments.gateway_socket;
+  if (arguments.drives_alone())
+    for (const std::string& warning : config.warnings)
+      std::cout << "warning: " << printable_paragraph(warning) << '\n';
+  if (arguments.check) {
+    check_start(config, std::cout);
+    std::cout << printable(arguments.config) << ": OK (" << counted(config.joints.size(), "joint")
+              << ", prefix " << config.prefix << ")\n";
+    return ExitStatus::kDone;
+  }
+  if (arguments.check_lines) return as_status(check_lines(config, std::cout));
+  if (!arguments.data_sheet.empty())
+    return as_status(check_data_sheet(config, arguments.data_sheet, std::cout));
+  if (arguments.check_drives) return as_status(check_drives(config, std::cout));
+  if (!arguments.commissioned.empty())
+    return commission_joint(config, arguments.config, arguments.commissioned, arguments.directory, std::cout);
+  start_logging();
+  Supervisor supervisor(config);
+  supervisor.run();
+  return ExitStatus::kDone;
 }
 
 }  // namespace
+}  // namespace strainwave
 
 int main(int argc, char** argv) {
   CLI::App app{"Real-time control of strain-wave joints whose friction changes with temperature."};
-  std::string config_path;
-  bool check_only = false;
-  app.add_option("--config", config_path, "configuration file (TOML)")->required();
-  app.add_flag("--check", check_only,
-               "load every file, report whether the daemon would start here, and exit");
-  bool check_lines = false;
-  app.add_flag("--check-lines", check_lines,
-               "list the digital lines of all joints with their holders, and exit");
-  bool check_drives = false;
-  app.add_flag("--check-drives", check_drives,
-               "set up and check the drives as at start-up, enable none, and exit");
-  std::string data_sheet;
-  app.add_option(
-      "--check-data-sheet", data_sheet,
-      "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and exit");
-  std::string commissioned;
-  CLI::Option* const commission = app.add_option(
-      "--commission", commissioned, "move this joint inside its limits to learn what it is, and exit");
-  std::string directory;
-  CLI::Option* const out =
-      app.add_option("--out", directory, "folder for commission.json, what --commission found");
-  commission->needs(out);
-  out->needs(commission);
-  std::string gateway_socket;
-  app.add_option(
-      "--gateway-socket", gateway_socket,
-      "let the service manager start the gateway, as a user of its own, by a connection to this socket");
+  strainwave::Arguments arguments;
+  strainwave::add_options(app, arguments);
   strainwave::configure_program(
       app,
       {.program = "strainwaved",
@@ -68,31 +110,5 @@ int main(int argc, char** argv) {
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
-  return strainwave::run_program(app, argc, argv, [&] {
-    const bool drives_alone = check_lines || check_drives || !data_sheet.empty() || !commissioned.empty();
-    strainwave::DaemonConfig config =
-        strainwave::read_config(config_path, !commissioned.empty() ? strainwave::ConfigUse::kCommission
-                                             : drives_alone        ? strainwave::ConfigUse::kCheckDrives
-                                                                   : strainwave::ConfigUse::kRun);
-    config.gateway_socket = gateway_socket;
-    if (drives_alone)
-      for (const std::string& warning : config.warnings)
-        std::cout << "warning: " << strainwave::printable_paragraph(warning) << '\n';
-    if (check_only) {
-      strainwave::check_start(config, std::cout);
-      std::cout << strainwave::printable(config_path) << ": OK ("
-                << strainwave::counted(config.joints.size(), "joint") << ", prefix " << config.prefix
-                << ")\n";
-      return strainwave::ExitStatus::kDone;
-    }
-    if (check_lines) return as_status(strainwave::check_lines(config, std::cout));
-    if (!data_sheet.empty()) return as_status(strainwave::check_data_sheet(config, data_sheet, std::cout));
-    if (check_drives) return as_status(strainwave::check_drives(config, std::cout));
-    if (!commissioned.empty())
-      return strainwave::commission_joint(config, config_path, commissioned, directory, std::cout);
-    strainwave::start_logging();
-    strainwave::Supervisor supervisor(config);
-    supervisor.run();
-    return strainwave::ExitStatus::kDone;
-  });
+  return strainwave::run_program(app, argc, argv, [&] { return strainwave::run(arguments); });
 }

@@ -109,7 +109,8 @@ void draw_title(const WatchModel& model, Screen& screen) {
     return;
   }
   const int end = screen.put(0, 0, fmt::format("strainwave  {}  ", counts), Style::kTitle);
-  screen.put_fitting(0, end, model.has_key ? "commands are signed" : "commands are not signed", Style::kTitle);
+  screen.put_fitting(0, end, model.has_key ? "commands are signed" : "commands are not signed",
+                     Style::kTitle);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ inline constexpr int kFrictionFileFormat = 1;
 
 /// How good a fit is; costs at the motor side in the catalogue's units (N.cm, N.cm/RPM).
 struct FitRecord {
-  std::string method;  ///< "least-squares" or "epgs"; "logs", "record": measured, costs are 0
+  std::string method;     ///< "least-squares" or "epgs"; "logs", "record": measured, costs are 0
   std::string weighting;  ///< "source" or "torque": what was minimised; "bayes" for logs
   bool physical = true;   ///< constrained to be non-negative and not increasing with temperature
   double cost_source = 0.0;

@@ -91,7 +91,8 @@ TEST_P(Manual, EveryOptionOfTheHelpIsOnThePageAndOfferedByTheShells) {
 
 TEST_P(Manual, EveryOptionIsWordsJoinedByDashesThenItsUnit) {
   const std::regex option("[ ']--[A-Za-z][A-Za-z0-9_-]*");
-  const std::regex spelling("--[A-Za-z][a-z0-9]*(-[a-z0-9]+)*(_(rad|rad_s|s|C|A|Nm|Ncm|kgm2|Nm_rad|Nms_rad))?");
+  const std::regex spelling(
+      "--[A-Za-z][a-z0-9]*(-[a-z0-9]+)*(_(rad|rad_s|s|C|A|Nm|Ncm|kgm2|Nm_rad|Nms_rad))?");
   const std::string bash = print("bash");
   int count = 0;
   for (auto it = std::sregex_iterator(bash.begin(), bash.end(), option); it != std::sregex_iterator();

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "design/gains/ts_plant.h"
 #include "design/gains/controller_design.h"
+#include "design/gains/ts_plant.h"
 
 namespace strainwave {
 
