@@ -33,6 +33,7 @@ std::vector<Gear> read_catalogue() {
                      number("ratio"),
                      {number("stiffness_1_Nm_rad"), number("torque_1_Nm"), number("stiffness_2_Nm_rad"),
                       number("torque_2_Nm"), number("stiffness_3_Nm_rad")},
+                     number("lost_motion_rad"),
                      number("repeated_peak_torque_Nm"),
                      number("wave_generator_inertia_kgm2"),
                      known_Nm("running_torque_Ncm"),

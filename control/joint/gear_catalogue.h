@@ -17,6 +17,7 @@ struct Gear {
   double size = 0.0;  ///< the catalogue's: its pitch diameter in tenths of an inch
   double ratio = 0.0;
   TorsionSpring spring;                      ///< at the joint
+  double lost_motion_rad = 0.0;              ///< at the joint, from side to side
   double repeated_peak_torque_Nm = 0.0;      ///< at the joint, for each start and stop
   double wave_generator_inertia_kgm2 = 0.0;  ///< at the motor
   std::optional<double>

@@ -20,9 +20,6 @@ namespace fs = std::filesystem;
 // To either side of where the joint stands, and of the planned motion: those of the study of this motion (tests/commission/study.cc).
 constexpr double kMostWay_rad = 0.7;
 constexpr double kMostAcceleration_rad_s2 = 3.0;
-// Arc minutes of the catalogue: one, and two below a ratio of 80 (data/gears.csv).
-constexpr double kArcMinute_rad = 0.000291;
-constexpr double kFineRatio = 80.0;
 
 std::size_t find_joint(const DaemonConfig& config, const std::string& name) {
   std::string names;
@@ -31,6 +28,12 @@ std::size_t find_joint(const DaemonConfig& config, const std::string& name) {
     names += (i == 0 ? "" : ", ") + config.joints[i].name;
   }
   throw InputError("--commission " + name + ": a joint of the configuration is allowed: " + names);
+}
+
+const Gear& gear_of(const JointConfig& joint) {
+  if (const Gear* const gear = find_gear(joint.plant.gear.view())) return *gear;
+  throw InputError(joint.name + ": joint.gear: one of " + gear_names() +
+                   " is allowed: commissioning starts from its lost motion and keeps its torque");
 }
 
 void require_commissionable(const JointConfig& joint) {
@@ -78,8 +81,7 @@ ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
                        controller.motion.velocity_rad_s,
                        std::min(kMostAcceleration_rad_s2, controller.motion.acceleration_rad_s2),
                        controller.torque_limit_Nm};
-  if (const Gear* const gear = find_gear(joint.plant.gear.view()))
-    excitation.limits.torque_Nm = std::min(excitation.limits.torque_Nm, gear->repeated_peak_torque_Nm);
+  excitation.limits.torque_Nm = std::min(excitation.limits.torque_Nm, gear_of(joint).repeated_peak_torque_Nm);
   excitation.limits.temperature_C = joint.loop.limits.temperature_limit_C;
   excitation.period_s = period_s;
   excitation.encoder_resolution_rad = controller.encoder_resolution_rad;
@@ -118,9 +120,7 @@ CommissioningConfig commissioning_config(const DaemonConfig& config, std::size_t
           : "torque acts against position; correct the sign of one of them in the drive, since " +
                 joint.driver + ".direction turns both";
   made.excitation = excitation_config(joint, config.loop.period_s);
-  made.told = {joint.plant.gear_ratio, link.spring,
-               joint.plant.gear_ratio < kFineRatio ? 2.0 * kArcMinute_rad : kArcMinute_rad,
-               link.motor_inertia_kgm2};
+  made.told = {joint.plant.gear_ratio, link.spring, gear_of(joint).lost_motion_rad, link.motor_inertia_kgm2};
   ConfiguredNumbers& numbers = made.configured;
   if (!joint.motor_inertia_assumed) numbers.motor_inertia_kgm2 = link.motor_inertia_kgm2;
   if (!joint.load_inertia_assumed) numbers.load_inertia_kgm2 = link.link_inertia_kgm2;

@@ -35,10 +35,6 @@ void scale(ExponentialTemperatureLaw& law, double factor) {
   }
 }
 
-double lost_motion_rad(const Gear& gear) {
-  return gear.ratio >= 80.0 ? 0.000291 : 0.000582;  // data/gears.csv
-}
-
 /// What friction adds in proportion to the load: gravity's, a mean over the way of the strokes at this speed.
 double friction_by_load_Nm(const RandomJoint& joint, double speed_rad_s) {
   const JointEffects& effects = joint.drive.plant.effects;
@@ -73,7 +69,7 @@ RandomJoint random_joint(std::uint64_t seed) {
   const double generator = gear.wave_generator_inertia_kgm2 * N * N;
   const double motor = generator * draw(1.2, 2.5);  // with a rotor
   const double link = motor * std::max(0.1, draw(0.0, 3.0));
-  joint.told = {N, gear.spring, lost_motion_rad(gear), generator};
+  joint.told = {N, gear.spring, gear.lost_motion_rad, generator};
 
   JointPlantConfig& plant = joint.drive.plant;
   plant.joint.inertia_kgm2 = motor;
@@ -93,7 +89,7 @@ RandomJoint random_joint(std::uint64_t seed) {
   gears_spring.spring = gear.spring.scaled(draw(0.8, 1.3));
   gears_spring.damping_Nms_rad =
       structural_damping_Nms_rad(motor, link, gears_spring.spring.stiffness_1_Nm_rad, draw(0.01, 0.05));
-  gears_spring.lost_motion.width_rad = lost_motion_rad(gear) * draw(0.5, 1.0);
+  gears_spring.lost_motion.width_rad = gear.lost_motion_rad * draw(0.5, 1.0);
   const double error = draw(0.3, 1.0) * 0.5 * (gear.size < 19.0 ? 0.000436 : 0.000291);
   gears_spring.kinematic_error = {{error, error}, {draw(0.0, 6.28), draw(0.0, 6.28)}};
   plant.effects.transmission = gears_spring;
