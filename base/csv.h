@@ -50,6 +50,9 @@ constexpr Number csv_number(Number value) noexcept {
     return value;
 }
 
+/// `text` without spaces, tabs and carriage returns at its ends.
+std::string_view trimmed(std::string_view text);
+
 /// `text` split at every `separator`; never empty.
 std::vector<std::string_view> split(std::string_view text, char separator);
 

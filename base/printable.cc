@@ -105,12 +105,17 @@ std::string number_text(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+double rounded(double value, int digits) {
+  const std::string text = in_digits(value, digits);
+  double read = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), read);
+  return read;
+}
+
 std::string bound_text(double bound) {
   for (int digits = kFewestDigits; digits < kAllDigits; ++digits) {
-    std::string text = in_digits(bound, digits);
-    double read = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), read);
-    if (std::abs(read - bound) <= 0.1 * kAtBound * std::abs(bound)) return text;
+    if (std::abs(rounded(bound, digits) - bound) <= 0.1 * kAtBound * std::abs(bound))
+      return in_digits(bound, digits);
   }
   return number_text(bound);
 }

@@ -28,6 +28,9 @@ std::string counted(Number count, std::string_view thing) {
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
 std::string number_text(double value);
 
+/// The number that `value` is with so many significant digits, 1 to 17.
+double rounded(double value, int digits);
+
 /// How near a bound a number is that was computed: one that is beyond it by no more than this share is at it.
 inline constexpr double kAtBound = 1e-9;
 

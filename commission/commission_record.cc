@@ -168,6 +168,11 @@ std::string to_json(const CommissionRecord& record) {
   return json.dump(2) + "\n";
 }
 
+const CommissionValue* find_value(const std::vector<CommissionValue>& values, std::string_view key) {
+  const auto found = std::ranges::find(values, key, &CommissionValue::key);
+  return found == values.end() ? nullptr : &*found;
+}
+
 CommissionRecord parse_commission_record(std::string_view text, const std::string& source) {
   const ordered_json json = parse_strict_json(text, source);
   StrictObject object(json, source);

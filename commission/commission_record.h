@@ -48,6 +48,9 @@ struct ResponseModel {
   double delay_s = 0.0;
 };
 
+/// The one with this key; null where there is none.
+const CommissionValue* find_value(const std::vector<CommissionValue>& values, std::string_view key);
+
 struct CommissionRecord {
   std::string joint;
   std::string configuration;       ///< path of the file

@@ -197,7 +197,7 @@ std::string Commissioning::find_torque_of_breaking_away() {
 }
 
 std::string Commissioning::find_friction_over_speed() {
-  record_.friction = find_friction(strokes_, {config_.told.gear_ratio, 0.0});
+  record_.friction = find_friction(strokes_, friction_search(config_.told.gear_ratio, std::nullopt));
   if (record_.friction.empty()) {
     record_.problem =
         "no stretch of steady speed was long enough: give a larger range between the position limits";
@@ -228,7 +228,7 @@ std::string Commissioning::find_motion() {
                      found->delay_s.value + 0.5 * strokes_.period_s};
   // Again, without the torque that changed the speed, where the steady strokes are of this run.
   if (const std::vector<FrictionAtSpeed> friction =
-          find_friction(strokes_, {config_.told.gear_ratio, found->total_inertia_kgm2.value});
+          find_friction(strokes_, friction_search(config_.told.gear_ratio, found));
       friction.size() >= record_.friction.size())
     record_.friction = friction;
   std::string text;

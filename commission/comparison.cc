@@ -36,9 +36,8 @@ bool same(double a, double b) {
 
 /// What is configured over what is measured; 0: one of them is missing.
 double factor_of(const std::vector<CommissionValue>& values, const char* key) {
-  const auto found = std::find_if(values.begin(), values.end(),
-                                  [key](const CommissionValue& value) { return value.key == key; });
-  return found == values.end() ? 0.0 : found->configured.value_or(0.0) / found->measured.value;
+  const CommissionValue* const found = find_value(values, key);
+  return found == nullptr ? 0.0 : found->configured.value_or(0.0) / found->measured.value;
 }
 
 /// The factor by which a wrong scale of torque or position explains all: link and spring agree, and so does the motor, or it fits as

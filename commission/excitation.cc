@@ -81,10 +81,11 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
   quick_rad_s_ = quick_speed_.step(reading.joint_position_rad);
   const bool braked = stage_ == Stage::kBraking;
   const std::optional<std::string> wrong = guard_.judge(reading, quick_rad_s_, true);
+  const bool runs = braked && runs_away();
   if (wrong && (!braked || guard_.blind())) abort(*wrong);
-  if (braked && runs_away()) abort("the joint speeds up while it is braked");
+  if (runs) abort("the joint speeds up while it is braked");
   // Then it is disabled at once, not braked.
-  if (reading.fault != ActuatorFault::kNone || guard_.blind() || (braked && runs_away()) ||
+  if (reading.fault != ActuatorFault::kNone || guard_.blind() || runs ||
       (stage_ == Stage::kBraking && reading.drive_state != DriveState::kEnabled)) {
     stage_ = Stage::kDone;
     return {};
@@ -134,7 +135,7 @@ double Excitation::ramp_Nm(double position_rad) {
   }
   const double torque = way * config_.limits.torque_Nm * config_.period_s / kRamp_s *
                         static_cast<double>(stage_periods_ - rest);
-  if (std::abs(torque) > 0.95 * config_.limits.torque_Nm) {
+  if (std::abs(torque) > kBlocked * config_.limits.torque_Nm) {
     abort(fmt::format(
         "the joint has not moved at {:.2f} N.m, and {:.2f} N.m is allowed: is the brake open? Else a larger "
         "torque_limit_Nm or a warmer joint is needed",

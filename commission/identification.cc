@@ -157,6 +157,11 @@ std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& 
   return found;
 }
 
+FrictionSearch friction_search(double gear_ratio, const std::optional<MotionEstimates>& motion) {
+  if (!motion) return {gear_ratio, 0.0, 0.0};
+  return {gear_ratio, motion->total_inertia_kgm2.value, motion->delay_s.value};
+}
+
 std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search) {
   std::vector<FrictionSample> samples;
   const std::vector<Turn> turns = steady_turns(trace, search);
@@ -194,12 +199,7 @@ JointEstimates identify(const JointTrace& trace, const ToldJoint& told) {
     return std::pair(both[0], both[1]);
   }();
   found.motion = fit_motion(trace, told);
-  FrictionSearch search{told.gear_ratio, 0.0, 0.0};
-  if (found.motion) {
-    search.inertia_kgm2 = found.motion->total_inertia_kgm2.value;
-    search.delay_s = found.motion->delay_s.value;
-  }
-  found.friction = find_friction(trace, search);
+  found.friction = find_friction(trace, friction_search(told.gear_ratio, found.motion));
   return found;
 }
 

@@ -26,6 +26,9 @@ struct FrictionSearch {
   double delay_s = 0.0;       ///< from an order to its torque; 0: not known
 };
 
+/// With what `motion`, where it is known, says of torque that is not friction's.
+FrictionSearch friction_search(double gear_ratio, const std::optional<MotionEstimates>& motion);
+
 /// Friction over speed from whole motor turns at steady speed, the same turn in both directions:
 ///   F(w) = (mean torque there - mean torque back) / 2
 std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search);

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "base/toml_section.h"
@@ -16,13 +17,9 @@ namespace {
 using Lines = std::vector<std::string>;
 
 Lines lines_of(const std::string& text) {
-  Lines lines;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  const std::vector<std::string_view> parts = split(text, '\n');
+  Lines lines(parts.begin(), parts.end());
+  if (lines.back().empty()) lines.pop_back();
   return lines;
 }
 
@@ -30,12 +27,6 @@ std::string text_of(const Lines& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
   return text;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
-  const std::size_t end = text.find_last_not_of(" \t\r");
-  return end == std::string_view::npos ? std::string_view{} : text.substr(begin, end - begin + 1);
 }
 
 /// The name in a line [name] or [[name]]; empty: it is none.

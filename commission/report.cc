@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <complex>
-#include <cstdlib>
 
 #include "base/printable.h"
 #include "commission/report_chart.h"
@@ -41,7 +40,7 @@ std::string number_cell(const std::string& text) {
 
 /// In so many digits, without an exponent where it can be.
 std::string digits(double value, int count) {
-  return number_text(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr));
+  return number_text(rounded(value, count));
 }
 
 std::string heading(const std::string& text) {

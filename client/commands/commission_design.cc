@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/toml_section.h"
 #include "control/joint/gear_catalogue.h"
 
@@ -21,22 +21,14 @@ constexpr double kStiffnessShare = 0.02;
 constexpr double kDampingShare = 1.0 / 3.0;
 constexpr double kNextPeriod = 0.25;
 constexpr double kFirstMotion_rad = 0.1;
+// As a number is in the configuration and in the table: digits that mean something.
+constexpr int kDigits = 5;
 
 constexpr std::string_view kDelay = "delay_periods";
 constexpr std::string_view kGravity = "control.gravity_";
 
-/// As it is in the configuration and in the table: digits that mean something.
-double rounded(double value) {
-  return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
-}
-
-const CommissionValue* find_value(const CommissionRecord& record, std::string_view key) {
-  const auto found = std::ranges::find(record.values, key, &CommissionValue::key);
-  return found == record.values.end() ? nullptr : &*found;
-}
-
 const CommissionValue& value_of(const CommissionRecord& record, std::string_view key) {
-  if (const CommissionValue* value = find_value(record, key)) return *value;
+  if (const CommissionValue* value = find_value(record.values, key)) return *value;
   throw InputError("commission", "values", std::string(key), "must be measured; commission the joint again");
 }
 
@@ -96,14 +88,14 @@ std::vector<std::string> gains_arguments(const CommissionRecord& record, const J
       "--period_s",
       fmt::format("{}", joint.period_s),
       "--motor-inertia_kgm2",
-      fmt::format("{}", rounded(value_of(record, "motor_inertia_kgm2").used)),
+      fmt::format("{}", rounded(value_of(record, "motor_inertia_kgm2").used, kDigits)),
       "--load-inertia_kgm2",
       range(value_of(record, "load_inertia_kgm2"), kLinkShare),
       "--stiffness_Nm_rad",
       range(value_of(record, "stiffness_Nm_rad"), kStiffnessShare),
       "--delay",
       delay_range(delay != record.values.end() ? *delay : value_of(record, kDelay))};
-  if (const CommissionValue* damping = find_value(record, "damping_Nms_rad"))
+  if (const CommissionValue* damping = find_value(record.values, "damping_Nms_rad"))
     arguments.insert(arguments.end(), {"--damping_Nms_rad", range(*damping, kDampingShare)});
   arguments.insert(arguments.end(), {"--out", table.string()});
   return arguments;
@@ -111,7 +103,7 @@ std::vector<std::string> gains_arguments(const CommissionRecord& record, const J
 
 std::vector<JointSetting> measured_settings(const CommissionRecord& record, const JointToDesign& joint,
                                             const std::string& table) {
-  const CommissionValue* const gravity = find_value(record, "control.gravity_Nm");
+  const CommissionValue* const gravity = find_value(record.values, "control.gravity_Nm");
   const bool has_gravity =
       !joint.homed && gravity != nullptr && gravity->measured.value > gravity->measured.half_width_95;
   std::vector<JointSetting> settings{{"table", table}};
@@ -122,7 +114,7 @@ std::vector<JointSetting> measured_settings(const CommissionRecord& record, cons
       settings.push_back({value.key, value.used});
     else if (std::ranges::find(kOwn, value.key) != kOwn.end() ||
              (has_gravity && value.key.starts_with(kGravity)))
-      settings.push_back({value.key, rounded(value.used)});
+      settings.push_back({value.key, rounded(value.used, kDigits)});
   }
   return settings;
 }
