@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "design/spring_design.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -16,6 +17,8 @@ constexpr int kQuarters = 4;  // of a decade of the torque's weight
 // Beyond that of data/tables/csf-17-50-delays.json, the softest shipped gains, a link's swing is not damped.
 constexpr double kSoftestWeight = 1e-5;
 constexpr int kNarrowings = 2;
+// Of the motor's inertia, to both sides: data sheets and identification are mostly within the first.
+constexpr std::array kMotorShares{0.05, 0.02, 0.01};
 constexpr int kSofterSteps = 8;  // of half a decade
 // Of a torque that acts two periods late the velocity of two readings is two and a half periods old. Of the family for links of 0.05 to 0.3
 // kg m2 behind a size 17 gear 1.5 periods are too few without damping, 2.5 too many for the stiffer gains.
@@ -31,8 +34,9 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
   SpringVerdict verdict;
   const auto try_weight = [&](int quarters) {
     request.design.weights.torque = first * std::pow(10.0, static_cast<double>(quarters) / kQuarters);
-    progress("link " + range_text(spring.link_inertia_kgm2) + " kg m2, torque weight " +
-             number_text(request.design.weights.torque));
+    progress("link " + range_text(spring.link_inertia_kgm2) + " kg m2, motor " +
+             bound_text(spring.motor_inertia_kgm2.from) + ".." + bound_text(spring.motor_inertia_kgm2.to) +
+             " kg m2, torque weight " + bound_text(request.design.weights.torque));
     GainTable table = design_table(controller, request);
     verdict = box_on_spring(table, gear, spring);
     if (!verdict.certified && request.encoder_side == EncoderSide::kMotor) {
@@ -50,10 +54,12 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
     refused = certified;
     certified += kQuarters;
     if (10.0 * request.design.weights.torque > 1.001 * kSoftestWeight)
-      throw NotAchieved("gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
-                        " kg m2, with torque weights of " + number_text(first) + " to " +
-                        number_text(request.design.weights.torque) +
-                        ". Narrow --load-inertia_kgm2, or give a --damping_Nms_rad above 0. " + verdict.text);
+      throw NotAchieved(
+          "gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
+          " kg m2, with torque weights of " + number_text(first) + " to " +
+          number_text(request.design.weights.torque) +
+          ". Narrow --load-inertia_kgm2 or --motor-inertia_kgm2, or give a --damping_Nms_rad above 0. " +
+          verdict.text);
     best.table = try_weight(certified);
   }
   best.text = verdict.text;
@@ -97,29 +103,49 @@ GainTable design_rigid(Controller controller, const TableRequest& request) {
                     number_text(softer.design.weights.torque) + ".");
 }
 
-// The lightest links are the hardest: a range is narrowed from their side.
+namespace {
+
+// The range that is given, or those around one number, the widest first.
+std::vector<BoxRange> motors_to_try(const BoxRange& given) {
+  if (given.from != given.to) return {given};
+  std::vector<BoxRange> motors;
+  for (const double share : kMotorShares)
+    motors.push_back({(1.0 - share) * given.from, (1.0 + share) * given.to});
+  return motors;
+}
+
+}  // namespace
+
 SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,
                               const SpringRequest& spring, const DesignProgress& progress) {
   if (spring.most_delay > kMaxBoxDelay)
     throw InputError("gains", "--delay", std::to_string(spring.most_delay),
                      "must be at most " + std::to_string(kMaxBoxDelay) + " in a table");
-  try {
-    return search(controller, request, gear, spring, progress);
-  } catch (const NotAchieved& none) {
-    SpringRequest narrower = spring;
-    BoxRange& link = narrower.link_inertia_kgm2;
-    for (int i = 0; i < kNarrowings; ++i) {
-      link.from = std::sqrt(link.from * link.to);
-      try {
-        search(controller, request, gear, narrower, progress);
-      } catch (const NotAchieved&) {
-        continue;
-      }
-      throw NotAchieved(std::string(none.what()) + "\nA table is certified with --load-inertia_kgm2 " +
-                        range_text(link) + " in place of --load or --load-inertia_kgm2.");
+  SpringRequest tried = spring;
+  std::string refusal;
+  for (const BoxRange& motor : motors_to_try(spring.motor_inertia_kgm2)) {
+    tried.motor_inertia_kgm2 = motor;
+    try {
+      SpringDesign found = search(controller, request, gear, tried, progress);
+      if (!refusal.empty()) found.text += "with a wider range of motor inertias no gains are certified\n";
+      return found;
+    } catch (const NotAchieved& none) {
+      refusal = none.what();
     }
-    throw;
   }
+  // The lightest links are the hardest: a range is narrowed from their side.
+  BoxRange& link = tried.link_inertia_kgm2;
+  for (int i = 0; i < kNarrowings; ++i) {
+    link.from = std::sqrt(link.from * link.to);
+    try {
+      search(controller, request, gear, tried, progress);
+    } catch (const NotAchieved&) {
+      continue;
+    }
+    throw NotAchieved(refusal + "\nA table is certified with --load-inertia_kgm2 " + range_text(link) +
+                      " in place of --load or --load-inertia_kgm2.");
+  }
+  throw NotAchieved(refusal);
 }
 
 }  // namespace strainwave

@@ -24,7 +24,8 @@ GainTable design_rigid(Controller controller, const TableRequest& request);
 using DesignProgress = std::function<void(const std::string&)>;
 
 /// Of gains over the torque's weight, from that of `request` to 1e-5, the first that are certified, to a quarter of a decade; on the motor's
-/// encoder with a lead where they are not without. Throws InputError where no table can hold what is asked for. Throws NotAchieved
+/// encoder with a lead where they are not without. A motor inertia of one number is certified within 5 % of it, or as far as gains are found.
+/// Throws InputError where no table can hold what is asked for. Throws NotAchieved
 /// with the last refusal where no gains are certified, and with a narrower range of links for which some are, if one was found.
 SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,
                               const SpringRequest& spring, const DesignProgress& progress);

@@ -48,7 +48,8 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
   command
       .add_option(
           "--motor-inertia_kgm2", options.motor_inertia_kgm2,
-          "its inertia before the spring, at the joint (default: of the catalogue's actuator with the gear)")
+          "its inertia before the spring, at the joint, FROM..TO, or one number, which gains widens by "
+          "5 % to both sides where it can (default: of the catalogue's actuator with the gear)")
       ->needs(load);
   command
       .add_option("--stiffness_Nm_rad", options.stiffness_Nm_rad,
@@ -67,13 +68,15 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
       ->capture_default_str();
 }
 
+std::optional<BoxRange> given_motor_inertia(const SpringOptions& options, const std::string& place) {
+  if (options.motor_inertia_kgm2.empty()) return std::nullopt;
+  return parse_range(place, "--motor-inertia_kgm2", options.motor_inertia_kgm2, kLeastInertia_kgm2);
+}
+
 SpringRequest spring_request(const SpringOptions& options, const std::string& place,
-                             double motor_inertia_kgm2) {
+                             const BoxRange& motor_inertia_kgm2) {
   SpringRequest request;
   request.motor_inertia_kgm2 = motor_inertia_kgm2;
-  if (!(request.motor_inertia_kgm2 >= kLeastInertia_kgm2))
-    throw InputError(place, "--motor-inertia_kgm2", number_text(request.motor_inertia_kgm2),
-                     "must be the inertia on the motor's side of the spring, at the joint");
   request.link_inertia_kgm2 = parse_load(place, "--load-inertia_kgm2", options.load_inertia_kgm2);
   if (!options.stiffness_Nm_rad.empty())
     request.stiffness_1_Nm_rad =

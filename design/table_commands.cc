@@ -30,14 +30,17 @@ std::string gear_of(const VerifyOptions& options, const GainTable& table) {
 }
 
 // As given, of the table's box, else of the catalogue's actuator. Says which if it is not given.
-double motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
-  if (options.spring.motor_inertia_kgm2) return *options.spring.motor_inertia_kgm2;
-  const MotorInertia inertia =
-      table.box.rigid() ? usual_motor_inertia("verify", find_gear(gear_of(options, table)),
-                                              std::string(table.plant.joint_model.view()), std::nullopt)
-                        : MotorInertia{table.box.motor_inertia_kgm2, "of the table's box"};
+BoxRange motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
+  if (const auto given = given_motor_inertia(options.spring, "verify")) return *given;
+  const BoxRange& of_box = table.box.motor_inertia_kgm2;
+  if (!table.box.rigid()) {
+    std::printf("--motor-inertia_kgm2 %g..%g, of the table's box\n", of_box.from, of_box.to);
+    return of_box;
+  }
+  const MotorInertia inertia = usual_motor_inertia("verify", find_gear(gear_of(options, table)),
+                                                   std::string(table.plant.joint_model.view()), std::nullopt);
   std::printf("--motor-inertia_kgm2 %g, %s\n", inertia.at_joint_kgm2, inertia.origin.c_str());
-  return inertia.at_joint_kgm2;
+  return {inertia.at_joint_kgm2, inertia.at_joint_kgm2};
 }
 
 /// The spring that is asked for, if one is. Throws InputError.

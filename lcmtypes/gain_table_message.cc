@@ -51,7 +51,7 @@ void visit_range(const Copy& copy, Range& range, Pair& pair) {
 template <typename Copy, typename Box, typename Message>
 void visit_box(const Copy& copy, Box& box, Message& message) {
   copy(box.encoder_side, message.encoder_side);
-  copy(box.motor_inertia_kgm2, message.box_motor_inertia_kgm2);
+  visit_range(copy, box.motor_inertia_kgm2, message.box_motor_inertia_kgm2);
   visit_range(copy, box.link_inertia_kgm2, message.box_link_inertia_kgm2);
   visit_range(copy, box.stiffness_Nm_rad, message.box_stiffness_Nm_rad);
   visit_range(copy, box.damping_Nms_rad, message.box_damping_Nms_rad);

@@ -95,7 +95,8 @@ ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell) {
 }
 
 SpringBox spring_box(const GainTable& table, const BoxCell& cell) {
-  return {table.box.rigid() ? table.plant.inertia_kgm2 : table.box.motor_inertia_kgm2,
+  const double whole_kgm2 = table.plant.inertia_kgm2;
+  return {table.box.rigid() ? BoxRange{whole_kgm2, whole_kgm2} : table.box.motor_inertia_kgm2,
           cell.link_inertia_kgm2,
           cell.stiffness_Nm_rad,
           table.box.damping_Nms_rad,
@@ -145,9 +146,9 @@ std::optional<std::string> find_spring_outside(const CertifiedBox& box, const Li
   const TorsionSpring& spring = link.spring;
   const auto [least, most] =
       std::minmax({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
-  if (!is_same_number(link.motor_inertia_kgm2, box.motor_inertia_kgm2))
+  if (!box.motor_inertia_kgm2.holds(link.motor_inertia_kgm2))
     return outside("joint.motor_inertia_kgm2", text_of({link.motor_inertia_kgm2, link.motor_inertia_kgm2}),
-                   text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2");
+                   text_of(box.motor_inertia_kgm2) + " kg m2");
   if (!box.link_inertia_kgm2.holds(link.link_inertia_kgm2))
     return outside("joint.load_inertia_kgm2", text_of({link.link_inertia_kgm2, link.link_inertia_kgm2}),
                    text_of(box.link_inertia_kgm2) + " kg m2");
@@ -195,9 +196,9 @@ std::string describe(const CertifiedBox& box) {
       ", encoder on the " + to_text(box.encoder_side);
   if (box.cell_count == 0) return std::string("nothing; encoder on the ") + to_text(box.encoder_side);
   if (box.rigid()) return "a rigid joint: one inertia, no spring, " + delays;
-  return "motor " + text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2, link " +
-         text_of(box.link_inertia_kgm2) + " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) +
-         " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, " + delays +
+  return "motor " + text_of(box.motor_inertia_kgm2) + " kg m2, link " + text_of(box.link_inertia_kgm2) +
+         " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) + " N m/rad, damping " +
+         text_of(box.damping_Nms_rad) + " N m s/rad, " + delays +
          (box.lead_periods == 0.0 ? "" : ", lead " + periods_text({box.lead_periods, box.lead_periods}));
 }
 

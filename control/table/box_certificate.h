@@ -4,7 +4,7 @@
 //
 // Proved is the feedback in the loop that the daemon closes around the encoder on the box's side: its velocity from the readings, its lead,
 // torques under way. It holds for every delay of the box, for any temperature taken for any other, and for viscous friction from 0 to the largest of
-// the rules. Stiffness and link inertia may vary within a cell from sample to sample, damping and friction within the box.
+// the rules. Stiffness and both inertias may vary within a cell from sample to sample, damping and friction within the box.
 // Not proved: what varies across cells, as a wind-up over several slopes does where those have cells of their own; planned motion and friction
 // that is fed forward; counts, static friction, a torque at its limit.
 #pragma once

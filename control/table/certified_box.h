@@ -39,7 +39,7 @@ constexpr std::size_t triangle_entries(int states) noexcept {
 inline constexpr std::size_t kCellEntries =
     triangle_entries(loop_states(kSpringPlantStates, kMaxBoxDelay, kMaxLeadPeriods));
 
-/// A part of the box with one P; in it stiffness and link inertia may be another at every sample.
+/// A part of the box with one P; in it stiffness and both inertias may be another at every sample. The motor's inertia is the box's.
 struct BoxCell {
   std::int32_t delay_periods = 0;
   BoxRange stiffness_Nm_rad;
@@ -52,10 +52,10 @@ struct BoxCell {
 /// friction of the motor's side is the rules' own, from 0 to the largest.
 struct CertifiedBox {
   EncoderSide encoder_side = EncoderSide::kMotor;
-  double motor_inertia_kgm2 = 0.0;  ///< > 0, one number: of the motor's side, at the joint
-  BoxRange link_inertia_kgm2;       ///< > 0
-  BoxRange stiffness_Nm_rad;        ///< > 0, every slope of the spring
-  BoxRange damping_Nms_rad;         ///< >= 0, of the wind-up's speed
+  BoxRange motor_inertia_kgm2;   ///< > 0, of the motor's side, at the joint
+  BoxRange link_inertia_kgm2;    ///< > 0
+  BoxRange stiffness_Nm_rad;     ///< > 0, every slope of the spring
+  BoxRange damping_Nms_rad;      ///< >= 0, of the wind-up's speed
   std::int32_t least_delay = 0;  ///< periods between a torque's computation and its effect, 0..kMaxBoxDelay
   std::int32_t most_delay = 0;
   /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Rigid joints have none.

@@ -105,7 +105,7 @@ void inspect_box(TableInspector& inspector, const GainTable& table) {
   inspector.in_range("box.lead_periods", box.lead_periods, 0.0, kMaxLeadPeriods);
   if (!inspector.ok()) return;
   if (box.rigid()) {
-    inspector.require(box.motor_inertia_kgm2 == 0.0 && is_zero(box.link_inertia_kgm2) &&
+    inspector.require(is_zero(box.motor_inertia_kgm2) && is_zero(box.link_inertia_kgm2) &&
                           is_zero(box.stiffness_Nm_rad) && is_zero(box.damping_Nms_rad) &&
                           box.lead_periods == 0.0,
                       "box: a rigid one must say nothing of a spring");
@@ -113,7 +113,8 @@ void inspect_box(TableInspector& inspector, const GainTable& table) {
     inspector.require(box.cell_count > 0, "box.cell_count = 0: must be at least 1 unless the joint is rigid");
     inspector.require(!table.plant.gear.view().empty(),
                       "plant.gear: must be named where the joint has a spring");
-    inspector.in_range("box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
+    inspect_range(inspector, "box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue,
+                  kMaxInertia_kgm2);
     inspect_range(inspector, "box.link_inertia_kgm2", box.link_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
     inspect_range(inspector, "box.stiffness_Nm_rad", box.stiffness_Nm_rad, kMinBoxValue,
                   kMaxStiffness_Nm_rad);

@@ -79,7 +79,7 @@ ordered_json box_to_json(const CertifiedBox& box) {
   ordered_json document = {{"joint", box.rigid() ? kRigidName : kSpringName},
                            {"encoder_side", to_text(box.encoder_side)}};
   if (!box.rigid()) {
-    document["motor_inertia_kgm2"] = box.motor_inertia_kgm2;
+    document["motor_inertia_kgm2"] = range_to_json(box.motor_inertia_kgm2);
     document["link_inertia_kgm2"] = range_to_json(box.link_inertia_kgm2);
     document["stiffness_Nm_rad"] = range_to_json(box.stiffness_Nm_rad);
     document["damping_Nms_rad"] = range_to_json(box.damping_Nms_rad);
@@ -132,7 +132,7 @@ CertifiedBox box_from_json(StrictObject object) {
       is_first(object, "encoder_side", to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink));
   box.encoder_side = motor ? EncoderSide::kMotor : EncoderSide::kLink;
   if (!rigid) {
-    box.motor_inertia_kgm2 = object.number("motor_inertia_kgm2");
+    box.motor_inertia_kgm2 = range_from_json(object, "motor_inertia_kgm2");
     box.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
     box.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
     box.damping_Nms_rad = range_from_json(object, "damping_Nms_rad");

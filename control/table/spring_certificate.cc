@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kDimensions = 4;  // stiffness, 1 / Jl, damping, viscous friction
+constexpr std::size_t kDimensions = 5;  // stiffness, 1 / Jl, damping, viscous friction, 1 / Jm
 constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
 
 // Of a norm in the radius: what is left out of that is below 1e-10.
@@ -28,8 +28,10 @@ auto& range_of(Box& box, std::size_t dimension) {
       return box.link_inertia_kgm2;
     case 2:
       return box.damping_Nms_rad;
-    default:
+    case 3:
       return box.viscous_Nms_rad;
+    default:
+      return box.motor_inertia_kgm2;
   }
 }
 
@@ -38,7 +40,7 @@ SpringPlant corner_of(const SpringBox& box, std::size_t corner) {
   const auto end = [&](std::size_t d) {
     return (corner >> d & 1U) != 0 ? range_of(box, d).to : range_of(box, d).from;
   };
-  return {box.motor_inertia_kgm2, end(1), end(0), end(2), end(3)};
+  return {end(4), end(1), end(0), end(2), end(3)};
 }
 
 bool is_wide(const SpringBox& box, std::size_t dimension) {
@@ -263,8 +265,9 @@ std::string describe(const SpringPlant& plant) {
   if (plant.link_inertia_kgm2 == 0.0) {
     text << "inertia " << plant.motor_inertia_kgm2 << " kg m2";
   } else {
-    text << "link " << plant.link_inertia_kgm2 << " kg m2, stiffness " << plant.stiffness_Nm_rad
-         << " N m/rad, damping " << plant.damping_Nms_rad << " N m s/rad";
+    text << "motor " << plant.motor_inertia_kgm2 << " kg m2, link " << plant.link_inertia_kgm2
+         << " kg m2, stiffness " << plant.stiffness_Nm_rad << " N m/rad, damping " << plant.damping_Nms_rad
+         << " N m s/rad";
   }
   text << ", viscous friction " << plant.viscous_Nms_rad << " N m s/rad";
   return text.str();

@@ -2,14 +2,14 @@
 // The certificate of gains on a joint, rigid or with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
 // the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
 //
-//   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, j)
+//   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, 1/Jm, j)
 //
-// for every stiffness K, link inertia Jl, damping D and viscous friction b of the box and every gain j. Then V = x' P x falls by r^2
-// each sample, however K, Jl, D, b and the blend of the gains change from one sample to the next. That covers a spring of several slopes,
+// for every stiffness K, link inertia Jl, damping D, viscous friction b and motor inertia Jm of the box and every gain j. Then V = x' P x
+// falls by r^2 each sample, however these and the blend of the gains change from one sample to the next. That covers a spring of several slopes,
 // friction that changes, and a temperature that is taken for any other. Within a sample they stand still.
 //
-// Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D and b, so that its exponential is what interpolates those of the
-// box's 16 corners, within E (interpolation_error(), summed over the four). With |E_v| <= E
+// Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D, b and 1/Jm, so that its exponential is what interpolates those of the
+// box's 32 corners, within E (interpolation_error(), summed over the five). With |E_v| <= E
 //   H = sum_v lambda_v (H_v + E_v),    |H x| <= max_v |(H_v + E_v) x|   in the norm x' P x
 // and every inequality is tested for all H that are nearer to H_v than X, entry by entry: E and rounding. With w_i the rows of P H_v, e_j
 // unit vectors, D the difference and any l_ij > 0
@@ -30,11 +30,11 @@ namespace strainwave {
 
 /// The joints that are meant. A rigid one: link inertia, stiffness and damping from 0 to 0.
 struct SpringBox {
-  double motor_inertia_kgm2 = 0.0;  ///< > 0
-  BoxRange link_inertia_kgm2;       ///< > 0
-  BoxRange stiffness_Nm_rad;        ///< > 0
-  BoxRange damping_Nms_rad;         ///< >= 0, of the wind-up's speed
-  BoxRange viscous_Nms_rad;         ///< >= 0, of the motor's side
+  BoxRange motor_inertia_kgm2;  ///< > 0
+  BoxRange link_inertia_kgm2;   ///< > 0
+  BoxRange stiffness_Nm_rad;    ///< > 0
+  BoxRange damping_Nms_rad;     ///< >= 0, of the wind-up's speed
+  BoxRange viscous_Nms_rad;     ///< >= 0, of the motor's side
 };
 
 /// A corner of a box with its sampled plant, [A B; 0 1], and the errors of rounding.
@@ -47,7 +47,7 @@ struct SpringCorners {
   std::vector<SpringCorner> corners;
   ProofMatrix interpolation;  ///< E, entry by entry
   std::size_t widest =
-      0;  ///< the direction with most of it: 0 stiffness, 1 link inertia, 2 damping, 3 viscous friction
+      0;  ///< the direction with most of it: 0 stiffness, 1 link inertia, 2 damping, 3 viscous friction, 4 motor inertia
 };
 SpringCorners spring_corners(const SpringBox& box, double period_s);
 

@@ -56,7 +56,7 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
                                ? link.damping_Nms_rad
                                : structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
                                                             stiffness, kStructuralDamping);
-    const SpringBox box{link.motor_inertia_kgm2,
+    const SpringBox box{{link.motor_inertia_kgm2, link.motor_inertia_kgm2},
                         {link.link_inertia_kgm2, link.link_inertia_kgm2},
                         {stiffness, stiffness},
                         {damping, damping},

@@ -13,8 +13,8 @@ namespace strainwave {
 
 namespace {
 
-// Stiffness, link inertia, damping, viscous friction.
-constexpr std::size_t kDirections = 4;
+// Stiffness, link inertia, damping, viscous friction, motor inertia.
+constexpr std::size_t kDirections = 5;
 constexpr std::size_t kCorners = std::size_t{1} << kDirections;
 
 using Joint = std::array<double, kDirections>;
@@ -31,7 +31,7 @@ std::string text_of(const Joint& joint) {
   if (joint[1] == 0.0) return "viscous friction " + table_number(joint[3]) + " N m s/rad";
   return "stiffness " + table_number(joint[0]) + " N m/rad, link " + table_number(joint[1]) +
          " kg m2, damping " + table_number(joint[2]) + " N m s/rad, viscous friction " +
-         table_number(joint[3]) + " N m s/rad";
+         table_number(joint[3]) + " N m s/rad, motor " + table_number(joint[4]) + " kg m2";
 }
 
 RationalMatrix unit_row(std::size_t size, std::size_t place) {
@@ -45,7 +45,8 @@ void set_row(RationalMatrix& matrix, std::size_t row, const RationalMatrix& entr
 }
 
 /// h [Ac Bc; 0 0] with the states [e, w, s, v] and u; of a rigid joint, which has no link, [e, w] and u.
-RationalMatrix generator(const Joint& joint, const mpq_class& motor_inertia_kgm2, const mpq_class& h) {
+RationalMatrix generator(const Joint& joint, const mpq_class& h) {
+  const mpq_class motor_inertia_kgm2 = joint[4];
   if (joint[1] == 0.0) {
     RationalMatrix rigid(3, 3);
     rigid(0, 1) = h;
@@ -141,8 +142,7 @@ RationalMatrix lyapunov_matrix(const BoxCell& cell, std::size_t n) {
 class CellProof {
  public:
   CellProof(const GainTable& table, const BoxCell& cell, ExactReport& report)
-      : motor_inertia_kgm2_(table.box.rigid() ? table.plant.inertia_kgm2 : table.box.motor_inertia_kgm2),
-        left_out_(table.primary.has_integrator != 0 ? 0 : 1),
+      : left_out_(table.primary.has_integrator != 0 ? 0 : 1),
         period_s_(table.plant.period_s),
         delay_periods_(cell.delay_periods),
         report_(report) {
@@ -173,10 +173,9 @@ class CellProof {
  private:
   // Near the free swing's frequency velocities weigh as much as positions, and the stiffness as much as the torque.
   std::vector<mpq_class> scale(const Part& part) const {
-    if (part[1].to == 0.0) return {1, 1, motor_inertia_kgm2_};
+    if (part[1].to == 0.0) return {1, 1, part[4].from};
     const double K = part[0].to;
-    const mpq_class swing =
-        short_number_near(std::sqrt(K * (1 / motor_inertia_kgm2_.get_d() + 1 / part[1].from)));
+    const mpq_class swing = short_number_near(std::sqrt(K * (1 / part[4].from + 1 / part[1].from)));
     return {1, swing, 1, swing, short_number_near(K)};
   }
 
@@ -211,8 +210,7 @@ class CellProof {
   /// Whether V falls at the corners, but not within E of them. Where it does not fall at a corner, the proof ends.
   bool is_lost_between(const Part& part) {
     std::array<RationalMatrix, kCorners> generators;
-    for (std::size_t c = 0; c < kCorners; ++c)
-      generators[c] = generator(corner_of(part, c), motor_inertia_kgm2_, period_s_);
+    for (std::size_t c = 0; c < kCorners; ++c) generators[c] = generator(corner_of(part, c), period_s_);
     const RationalMatrix E = interpolation(generators, part);
     for (std::size_t c = 0; c < kCorners; ++c) {
       const Joint joint = corner_of(part, c);
@@ -242,7 +240,6 @@ class CellProof {
     report_.refusal = "box, delay " + std::to_string(delay_periods_) + ": " + why;
   }
 
-  mpq_class motor_inertia_kgm2_;
   std::size_t left_out_ = 0;  // the integral, which is no state without an integrator
   mpq_class period_s_;
   int delay_periods_;
@@ -260,8 +257,10 @@ void prove_cell(const GainTable& table, const BoxCell& cell, ExactReport& report
     most_viscous_Nms_rad = std::max(
         most_viscous_Nms_rad, table.friction.rules[static_cast<std::size_t>(rule)].friction.viscous_Nms_rad);
   const BoxRange viscous_Nms_rad{0.0, most_viscous_Nms_rad};
+  const double whole_kgm2 = table.plant.inertia_kgm2;
   CellProof(table, cell, report)
-      .prove({cell.stiffness_Nm_rad, cell.link_inertia_kgm2, table.box.damping_Nms_rad, viscous_Nms_rad},
+      .prove({cell.stiffness_Nm_rad, cell.link_inertia_kgm2, table.box.damping_Nms_rad, viscous_Nms_rad,
+              table.box.rigid() ? BoxRange{whole_kgm2, whole_kgm2} : table.box.motor_inertia_kgm2},
              kMostHalvings);
 }
 

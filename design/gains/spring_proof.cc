@@ -100,12 +100,12 @@ namespace {
 
 SpringPlant corner_plant(const SpringBox& box, bool upper) {
   const auto end = [upper](const BoxRange& range) { return upper ? range.to : range.from; };
-  return {box.motor_inertia_kgm2, end(box.link_inertia_kgm2), end(box.stiffness_Nm_rad),
+  return {end(box.motor_inertia_kgm2), end(box.link_inertia_kgm2), end(box.stiffness_Nm_rad),
           end(box.damping_Nms_rad), end(box.viscous_Nms_rad)};
 }
 
 double inertia_ratio(const SpringBox& box) {
-  const double motor_1_kgm2 = 1.0 / box.motor_inertia_kgm2;
+  const double motor_1_kgm2 = 1.0 / box.motor_inertia_kgm2.to;
   return (motor_1_kgm2 + 1.0 / box.link_inertia_kgm2.from) / (motor_1_kgm2 + 1.0 / box.link_inertia_kgm2.to);
 }
 
@@ -170,8 +170,8 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
   return proof;
 }
 
-SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, double motor_inertia_kgm2,
-                     const BoxRange& link_inertia_kgm2) {
+SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear,
+                     const BoxRange& motor_inertia_kgm2, const BoxRange& link_inertia_kgm2) {
   const Gear* const found = find_gear(gear);
   if (found == nullptr) throw InputError("spring", "gear", gear, "must be one of " + gear_names());
   const TorsionSpring& spring = found->spring;

@@ -42,14 +42,14 @@ struct SpringProof {
 };
 
 /// Cuts `box` by stiffness and link inertia into cells until each has a P. Then every joint of the box is proved stable. Its stiffness and
-/// link inertia may vary within a cell, its damping and viscous friction within the box. Takes tenths of a second per cell.
+/// link inertia may vary within a cell, its motor inertia, damping and viscous friction within the box. Takes tenths of a second per cell.
 SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                              int most_cells = 300);
 
 /// The box of a table's joint: the gear's slopes, no damping, viscous friction from 0 to the largest of the rules. Throws InputError when
 /// `gear` is none of the catalogue.
-SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, double motor_inertia_kgm2,
-                     const BoxRange& link_inertia_kgm2);
+SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear,
+                     const BoxRange& motor_inertia_kgm2, const BoxRange& link_inertia_kgm2);
 
 /// In words, one line per delay.
 std::string describe(const SpringProof& proof);

@@ -11,7 +11,7 @@ namespace strainwave {
 
 /// What a user says of a box; its friction is the table's.
 struct SpringRequest {
-  double motor_inertia_kgm2 = 0.0;
+  BoxRange motor_inertia_kgm2;
   BoxRange link_inertia_kgm2;
   std::optional<BoxRange>
       stiffness_1_Nm_rad;  ///< of the first slope, by which the gear's others grow, too; nothing: the gear's

@@ -105,7 +105,9 @@ TEST_F(DesignProgram, GainsForALargeGearBeginStiff) {
   const std::string design =
       "gains --gear csf-32-50 --motor-inertia_kgm2 2.1 --load-inertia_kgm2 1.2..6.9 --out " + file("t.json");
   ASSERT_EQ(run(design), 0) << output_;
-  EXPECT_NE(output_.find("trying link 1.2..6.9 kg m2, torque weight 1e-09"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("trying link 1.2..6.9 kg m2, motor 1.995..2.205 kg m2, torque weight 1e-09"),
+            std::string::npos)
+      << output_;
   EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;
 }
 
@@ -135,6 +137,11 @@ TEST_F(DesignProgram, GainsForLinksOf50To300GramsAtBothDelaysAreCertifiedWithALe
   EXPECT_EQ(made.box.stiffness_Nm_rad.to, 13000.0);
   EXPECT_EQ(made.box.least_delay, 1);
   EXPECT_EQ(made.box.most_delay, 2);
+  EXPECT_TRUE(made.box.motor_inertia_kgm2.holds(0.99 * 0.089) &&
+              made.box.motor_inertia_kgm2.holds(1.01 * 0.089));
+  EXPECT_NE(output_.find("with a wider range of motor inertias no gains are certified"), std::string::npos)
+      << "5 % less and the lightest link swings up\n"
+      << output_;
   const GainTable shipped = read_gain_table(kData + "tables/csf-17-50-delays.json");
   EXPECT_EQ(made.box.lead_periods, shipped.box.lead_periods);
   for (int rule = 0; rule < made.primary.rule_count; ++rule)
@@ -149,21 +156,25 @@ TEST_F(DesignProgram, TakesWhatIsNotGivenFromTheCataloguesActuatorWithTheGear) {
   EXPECT_NE(output_.find("--motor-inertia_kgm2 0.089, of rhs17-6006"), std::string::npos) << output_;
   EXPECT_NE(output_.find("--inertia_kgm2 0.189, motor and heaviest link"), std::string::npos) << output_;
   const GainTable taken = read_gain_table(file("t.json"));
-  EXPECT_EQ(taken.box.motor_inertia_kgm2, 0.089);
+  EXPECT_DOUBLE_EQ(taken.box.motor_inertia_kgm2.from, 0.95 * 0.089);
+  EXPECT_DOUBLE_EQ(taken.box.motor_inertia_kgm2.to, 1.05 * 0.089);
   EXPECT_DOUBLE_EQ(taken.plant.inertia_kgm2, 0.189);
 
   const std::string friction = "--friction " + kData + "tables/rhs17-6006-friction.json ";
-  ASSERT_EQ(run(design + friction + "--motor-inertia_kgm2 0.09 --inertia_kgm2 0.2 --out " + file("t.json")),
-            0)
+  ASSERT_EQ(
+      run(design + friction + "--motor-inertia_kgm2 0.09..0.092 --inertia_kgm2 0.2 --out " + file("t.json")),
+      0)
       << output_;
   EXPECT_EQ(output_.find("catalogue"), std::string::npos) << output_;
   const GainTable given = read_gain_table(file("t.json"));
-  EXPECT_EQ(given.box.motor_inertia_kgm2, 0.09);
+  EXPECT_EQ(given.box.motor_inertia_kgm2.from, 0.09);
+  EXPECT_EQ(given.box.motor_inertia_kgm2.to, 0.092);
   EXPECT_EQ(given.plant.inertia_kgm2, 0.2);
   EXPECT_EQ(taken.provenance.friction_sha256.view(), given.provenance.friction_sha256.view())
       << "the file that is compiled in";
   EXPECT_EQ(run("verify " + file("t.json") + " --load-inertia_kgm2 0.1 --damping_Nms_rad 1"), 0) << output_;
-  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.09, of the table's box"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.09..0.092, of the table's box"), std::string::npos)
+      << output_;
   const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --load-inertia_kgm2 0.1 ";
   EXPECT_EQ(run(rigid + "--gear csf-17-50"), 0) << output_;
   EXPECT_NE(output_.find("--motor-inertia_kgm2 0.089, of rhs17-6006"), std::string::npos) << output_;
@@ -182,7 +193,7 @@ TEST_F(DesignProgram, DesignsForAGearByItsNameTheRotorAndTheLoad) {
   EXPECT_EQ(made.plant.gear_ratio, 100.0);
   EXPECT_EQ(made.provenance.note.view(), "friction: estimate from the catalogue");
   EXPECT_EQ(made.torque_limit_Nm, 157.0) << "the gear's repeated peak torque";
-  EXPECT_NEAR(made.box.motor_inertia_kgm2, 1e4 * (3e-5 + 4.13e-5), 1e-9);
+  EXPECT_TRUE(made.box.motor_inertia_kgm2.holds(1e4 * (3e-5 + 4.13e-5)));
   EXPECT_NEAR(made.box.link_inertia_kgm2.from, 3.0 * 0.4 * 0.4, 1e-9);
   EXPECT_EQ(made.box.link_inertia_kgm2.from, made.box.link_inertia_kgm2.to);
   EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;

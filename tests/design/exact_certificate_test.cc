@@ -163,7 +163,7 @@ struct Change {
         table.friction.rules[0].friction.viscous_Nms_rad *= 1.0 + amount;
         break;
       default:  // the motor
-        table.box.motor_inertia_kgm2 *= factor;
+        (sign > 0.0 ? table.box.motor_inertia_kgm2.to : table.box.motor_inertia_kgm2.from) *= factor;
         table.plant.inertia_kgm2 *= factor;
         break;
     }

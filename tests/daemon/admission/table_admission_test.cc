@@ -232,8 +232,16 @@ TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
   for (const double link_kgm2 : {0.05, 0.3}) {
     const TableVerdict verdict = judge(link_kgm2, 1);
     EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
-    EXPECT_NE(verdict.text.find("certified for motor 0.089 kg m2, link 0.05..0.3 kg m2"), std::string::npos)
+    EXPECT_NE(verdict.text.find("certified for motor 0.08455..0.09345 kg m2, link 0.05..0.3 kg m2"),
+              std::string::npos)
         << verdict.text;
+  }
+}
+
+TEST_F(TableAdmissionOnASpring, AcceptsAMotorThatIsFivePerCentOffItsDataSheet) {
+  for (const double motor_kgm2 : {0.0846, 0.0934}) {
+    const TableVerdict verdict = judge(0.1, 1, motor_kgm2);
+    EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
   }
 }
 
@@ -251,7 +259,9 @@ TEST_F(TableAdmissionOnASpring, AcceptsBothDelaysWithATableThatHasALead) {
 TEST_F(TableAdmissionOnASpring, RefusesAJointOnePerCentOutsideTheBoxWithQuantityValueAndRange) {
   expect_outside(judge(0.303, 1), "load_inertia_kgm2 = 0.303: the table is certified for 0.05..0.3 kg m2");
   expect_outside(judge(0.0495, 1), "load_inertia_kgm2 = 0.0495");
-  expect_outside(judge(0.1, 1, 0.0899), "= 0.0899");
+  expect_outside(judge(0.1, 1, 0.0944),
+                 "joint.motor_inertia_kgm2 = 0.0944: the table is certified for 0.08455..0.09345 kg m2");
+  expect_outside(judge(0.1, 1, 0.0837), "joint.motor_inertia_kgm2 = 0.0837");
   expect_outside(judge(0.1, table_.box.most_delay + 1), "delay_periods");
 }
 

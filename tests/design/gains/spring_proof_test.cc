@@ -20,7 +20,7 @@ GainTable table_of_the_study() {
 }
 
 SpringBox box_of(const GainTable& table, const BoxRange& link_inertia_kgm2) {
-  return spring_box(table.friction, "csf-17-50", 0.089, link_inertia_kgm2);
+  return spring_box(table.friction, "csf-17-50", {0.089, 0.089}, link_inertia_kgm2);
 }
 
 TEST(SpringProof, TheBoxIsTheGearsSlopesAndEveryRulesFriction) {
@@ -31,7 +31,7 @@ TEST(SpringProof, TheBoxIsTheGearsSlopesAndEveryRulesFriction) {
   EXPECT_EQ(box.viscous_Nms_rad.from, 0.0);
   EXPECT_EQ(box.viscous_Nms_rad.to, table.friction.rules[0].friction.viscous_Nms_rad);
   EXPECT_EQ(gains_of(table).size(), 7U);
-  EXPECT_THROW(spring_box(table.friction, "csf-17-51", 0.089, {0.05, 0.3}), InputError);
+  EXPECT_THROW(spring_box(table.friction, "csf-17-51", {0.089, 0.089}, {0.05, 0.3}), InputError);
 }
 
 // Any temperature taken for any other, the fallback, every slope, no damping.

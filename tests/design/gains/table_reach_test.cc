@@ -29,8 +29,8 @@ class TableReachTest : public ::testing::Test {
   void choose_joint() {
     cell_ = table_.box.cells[random_() % static_cast<std::size_t>(table_.box.cell_count)];
     const SpringBox box = spring_box(table_, cell_);
-    const SpringPlant plant{box.motor_inertia_kgm2, any(box.link_inertia_kgm2), any(box.stiffness_Nm_rad),
-                            any(box.damping_Nms_rad), any(box.viscous_Nms_rad)};
+    const SpringPlant plant{any(box.motor_inertia_kgm2), any(box.link_inertia_kgm2),
+                            any(box.stiffness_Nm_rad), any(box.damping_Nms_rad), any(box.viscous_Nms_rad)};
     sampled_ = spring_exponential(spring_generator(plant, table_.plant.period_s));
     const std::vector<GainRow> gains = gains_of(table_);
     choose_gain(gains[random_() % gains.size()]);
