@@ -70,7 +70,6 @@ enum class Notice : std::int32_t {
   kLoadHigh = 1 << 12,
   kOtherInertia = 1 << 13,
   kPathPaused = 1 << 14,
-  kPathEnds = 1 << 15,
   kYielded = 1 << 16,
   kSamplesMissing = 1 << 17,
   kFrictionDiffers = 1 << 18,

@@ -24,12 +24,12 @@ namespace {
 
 constexpr std::size_t kTerminalColumns = 80;
 
-constexpr std::array kNotices{
-    Notice::kTorqueLimited,  Notice::kTemperatureClamped, Notice::kFallbackGains, Notice::kSetpointExpired,
-    Notice::kReadingMissed,  Notice::kSpeedLimited,       Notice::kNotHomed,      Notice::kAtLimitSwitch,
-    Notice::kOffStream,      Notice::kPositionLate,       Notice::kOffTarget,     Notice::kLoadHigh,
-    Notice::kOtherInertia,   Notice::kPathPaused,         Notice::kPathEnds,      Notice::kYielded,
-    Notice::kSamplesMissing, Notice::kFrictionDiffers,    Notice::kDerated};
+constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
+                              Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
+                              Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kOffStream,
+                              Notice::kPositionLate,    Notice::kOffTarget,          Notice::kLoadHigh,
+                              Notice::kOtherInertia,    Notice::kPathPaused,         Notice::kYielded,
+                              Notice::kSamplesMissing,  Notice::kFrictionDiffers,    Notice::kDerated};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

@@ -56,7 +56,6 @@ class PathClock {
   PathTime now() const noexcept { return {time_s_, rate_, change_1_s_}; }
   /// Whether the rate stays in the next period, whatever the room.
   bool steady() const noexcept { return rate_ == wanted(); }
-  bool rests() const noexcept { return rate_ == 0.0 && wish_ == Wish::kRest; }
   /// Whether it rests or is to come to rest.
   bool is_to_rest() const noexcept { return wish_ == Wish::kRest; }
 

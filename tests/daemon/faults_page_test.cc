@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// docs/faults.md against how faults stop a path, and the table of injected faults.
+// docs/faults.md against the table of injected faults.
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <map>
-#include <regex>
-#include <set>
 #include <sstream>
 
 #include "base/text_file.h"
-#include "daemon/realtime/joint/fault_reach.h"
-#include "lcmtypes/reading_doubt.h"
-#include "strainwave/vocabulary.h"
 #include "tests/daemon/realtime/joint/injected_fault_table.h"
 #include "tests/support/message_files.h"
 
@@ -45,38 +39,6 @@ std::vector<Row> rows_under(const std::string& title) {
     rows.push_back(row);
   }
   return rows;
-}
-
-/// Enumerators of an enum class in vocabulary.h, as they are written there.
-std::map<int, std::string> declared(const std::string& name) {
-  const std::string text = read_text_file(kSource / "strainwave" / "vocabulary.h");
-  const std::size_t begin = text.find("enum class " + name + " ");
-  const std::string body = text.substr(begin, text.find("};", begin) - begin);
-  std::map<int, std::string> enumerators;
-  const std::regex enumerator(R"((k\w+) = (\d+)( << (\d+))?)");
-  for (std::sregex_iterator it(body.begin(), body.end(), enumerator); it != std::sregex_iterator(); ++it) {
-    const int value = std::stoi((*it)[2]);
-    enumerators[(*it)[4].matched ? value << std::stoi((*it)[4]) : value] = (*it)[1];
-  }
-  return enumerators;
-}
-
-TEST(FaultsPage, SaysOfEveryFaultHowTheOthersOfAPathStopAndWhy) {
-  const auto text = [](OthersStop stop) {
-    return std::string(stop == OthersStop::kAtOnce ? "at once" : "along the path");
-  };
-  std::set<int> told;
-  for (const Row& row : rows_under("On a path")) {
-    const Fault fault = static_cast<Fault>(std::stoi(row.at(0)));
-    told.insert(std::stoi(row.at(0)));
-    EXPECT_EQ(row.at(1), declared("Fault").at(std::stoi(row.at(0))));
-    std::string stop = text(others_stop(fault, 0));
-    const OthersStop stuck = others_stop(fault, doubt_number(ReadingDoubt::kStuck));
-    if (stuck != others_stop(fault, 0)) stop += "; " + text(stuck) + " where the position stands still";
-    EXPECT_EQ(row.at(2), stop) << row.at(1);
-    EXPECT_FALSE(row.at(3).empty()) << row.at(1);
-  }
-  EXPECT_EQ(told.size() + 1, declared("Fault").size()) << "all but none";
 }
 
 std::string doing_text(Doing doing) {

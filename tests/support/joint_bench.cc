@@ -71,7 +71,6 @@ JointBench::JointBench(const std::vector<BenchJoint>& joints, const OverrunLimit
                                                   std::move(faulty), *replies_, *events_));
   }
   paths_ = std::make_unique<PathFollower>(joints_, joints.at(0).loop.controller.period_s);
-  groups_ = std::make_unique<JointGroups>(joints_, *paths_);
 }
 
 void JointBench::step() {
@@ -84,7 +83,7 @@ void JointBench::step() {
     fault_driven_joints(joints_, fault, time_);
   paths_->advance(time_);
   for (const auto& joint : joints_) joint->step(time_);
-  groups_->stop_with_the_faulted(time_);
+  stop_groups_of_the_faulted(joints_, time_);
 }
 
 void JointBench::stall(std::int64_t periods) {

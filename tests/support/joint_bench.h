@@ -121,7 +121,6 @@ class JointBench {
   std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::unique_ptr<PathFollower> paths_;
-  std::unique_ptr<JointGroups> groups_;
   std::vector<WatchedActuator*> drives_;
   std::int64_t period_ns_;
   CycleTime time_;

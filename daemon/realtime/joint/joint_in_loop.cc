@@ -58,13 +58,8 @@ void JointInLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
 }
 
 bool JointInLoop::stops_group(const CycleTime& time) const noexcept {
-  return config.group >= 0 && config.fault_stops_group && mode.is(Mode::kFaulted) &&
-         mode.began(time.now_ns) && mode.fault() != Fault::kGroup;
-}
-
-OthersStop JointInLoop::others_stop() const noexcept {
-  return law.controller().yields() ? OthersStop::kAtOnce
-                                   : strainwave::others_stop(mode.fault(), mode.drive_error());
+  return config.group >= 0 && mode.is(Mode::kFaulted) && mode.began(time.now_ns) &&
+         mode.fault() != Fault::kGroup;
 }
 
 void JointInLoop::drop_path() noexcept {

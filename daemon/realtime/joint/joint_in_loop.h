@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 
-#include "daemon/realtime/joint/fault_reach.h"
 #include "daemon/realtime/joint/homing.h"
 #include "daemon/realtime/joint/joint_drive.h"
 #include "daemon/realtime/joint/joint_law.h"
@@ -56,8 +55,6 @@ struct JointInLoop {
   }
   /// Whether the joint has faulted in this cycle in a way that stops its group.
   bool stops_group(const CycleTime& time) const noexcept;
-  /// How those must stop that stop with it. One that yields has run into something, like one that has a fault for it.
-  OthersStop others_stop() const noexcept;
   bool at_rest() const noexcept { return mode.is(Mode::kOff) || mode.is(Mode::kFaulted); }
 
   std::int64_t index;

@@ -190,7 +190,6 @@ void JointLoop::note_standing() noexcept {
   const JointController& controller = joint_.law.controller();
   if (!joint_.zero.known()) joint_.notice(Notice::kNotHomed);
   if (const auto path = ordered.path(); path && path->paused) joint_.notice(Notice::kPathPaused);
-  if (ordered.ends_path()) joint_.notice(Notice::kPathEnds);
   if (joint_.yield) joint_.notice(Notice::kYielded);
   if (ordered.streamed() && controller.plan().trajectory().ran_out_of_samples())
     joint_.notice(Notice::kSamplesMissing);

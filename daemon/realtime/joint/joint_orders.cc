@@ -138,8 +138,6 @@ Ruling begin_setpoint(JointInLoop& joint, const Order& order, const CycleTime& t
 
 Reason hold(JointInLoop& joint) noexcept {
   if (!joint.mode.controlled()) return Reason::kWrongMode;
-  if (joint.follower != nullptr && joint.follower->end(static_cast<std::size_t>(joint.index)))
-    return Reason::kAccepted;
   joint.end_orders();
   joint.law.controller().stop();
   joint.homing.abort();

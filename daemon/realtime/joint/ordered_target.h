@@ -4,7 +4,7 @@
 // stream that is not under way is refused, however late it comes. Real-time safe; time is an argument.
 //
 //   none -> live -> expired -> none      hold, stop, fault, enable, a move: live -> none
-//   none -> path -> none                 its end, and whatever ends a stream; on the way to rest along it: path -> ending path -> none
+//   none -> path -> none                 its end, and whatever ends a stream
 #pragma once
 
 #include <cstdint>
@@ -55,10 +55,6 @@ class OrderedTarget {
   }
   /// Of the path, as long as it lasts.
   void note(const PathProgress& progress) noexcept { progress_ = progress; }
-  /// The path that is followed, if one is, does not go on to its end.
-  void path_ends() noexcept {
-    if (on_path()) stream_ = Stream::kEndingPath;
-  }
   /// Something ends all motion: a live stream is over. That one has expired stays shown.
   void end() noexcept {
     if (goes_on()) stream_ = Stream::kNone;
@@ -71,8 +67,7 @@ class OrderedTarget {
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
   /// Of the live stream; 0: none is.
   std::int64_t stream_id() const noexcept { return streamed() ? stream_id_ : 0; }
-  bool on_path() const noexcept { return stream_ == Stream::kPath || ends_path(); }
-  bool ends_path() const noexcept { return stream_ == Stream::kEndingPath; }
+  bool on_path() const noexcept { return stream_ == Stream::kPath; }
   /// Nothing: the joint is on no path.
   std::optional<PathProgress> path() const noexcept {
     return on_path() ? std::optional(progress_) : std::nullopt;
@@ -90,7 +85,7 @@ class OrderedTarget {
   }
 
  private:
-  enum class Stream { kNone, kLive, kExpired, kContradicted, kPath, kEndingPath };
+  enum class Stream { kNone, kLive, kExpired, kContradicted, kPath };
   Stream stream_ = Stream::kNone;
   std::int64_t stream_id_ = 0;   ///< while live
   std::int64_t expires_ns_ = 0;  ///< while live

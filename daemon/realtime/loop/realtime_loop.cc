@@ -36,7 +36,6 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
         std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.period_s));
   }
   paths_ = std::make_unique<PathFollower>(joints_, config.period_s);
-  groups_ = std::make_unique<JointGroups>(joints_, *paths_);
 }
 
 RealtimeLoop::~RealtimeLoop() {
@@ -87,7 +86,7 @@ void RealtimeLoop::run() noexcept {
     for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
     paths_->advance(time);
     for (const auto& joint : joints_) joint->step(time);
-    groups_->stop_with_the_faulted(time);
+    stop_groups_of_the_faulted(joints_, time);
     account_positions();
     for (const auto& bus : buses_) bus->end_cycle();
     publish(time);

@@ -107,7 +107,6 @@ class RealtimeLoop {
   std::vector<std::unique_ptr<Fieldbus>> buses_;  ///< the joints' drives refer to them
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::unique_ptr<PathFollower> paths_;
-  std::unique_ptr<JointGroups> groups_;
   std::thread thread_;
   Refusals refusals_;
   UniqueFd awake_;  ///< keeps the processors out of sleep states

@@ -9,13 +9,6 @@
 
 namespace strainwave {
 
-namespace {
-
-// For coming to rest along the path: a multiple of what the slowest joint needs on its own, and what the clock needs of the slowest path.
-constexpr double kPatience = 2.0;
-
-}  // namespace
-
 PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
     : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
   for (const auto& joint : joints_) joint->joint().follower = this;
@@ -30,7 +23,6 @@ void PathFollower::for_each_member(std::size_t travel, const Act& act) noexcept 
 Ruling PathFollower::resume(std::size_t joint) noexcept {
   const std::size_t travel = members_[joint].travel;
   if (travel == kNoTravel) return begin(joint);
-  if (travels_[travel].phase == Phase::kEnding) return Reason::kWrongMode;
   travels_[travel].clock.run();
   return Reason::kAccepted;
 }
@@ -66,20 +58,9 @@ Ruling PathFollower::begin(std::size_t first) noexcept {
 
 Ruling PathFollower::pause(std::size_t joint) noexcept {
   const std::size_t travel = members_[joint].travel;
-  if (travel == kNoTravel || travels_[travel].phase == Phase::kEnding) return Reason::kWrongMode;
+  if (travel == kNoTravel) return Reason::kWrongMode;
   travels_[travel].clock.rest();
   return Reason::kAccepted;
-}
-
-bool PathFollower::end(std::size_t joint) noexcept {
-  const std::size_t travel = members_[joint].travel;
-  if (travel == kNoTravel) return false;
-  if (travels_[travel].phase == Phase::kBeginning) {
-    free(travel);
-    return false;
-  }
-  bring_to_rest(travel);
-  return true;
 }
 
 void PathFollower::advance(const CycleTime& time) noexcept {
@@ -121,14 +102,12 @@ void PathFollower::wait_for_the_slowest(std::size_t travel) noexcept {
 void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   Travel& travel = travels_[index];
   const bool begins = travel.phase == Phase::kBeginning;
-  if (time.elapsed_periods > kMaxElapsedPeriods) return stop_each(index);
   if (begins && !begin_all(index, time)) return free(index);
-  if (!release_lost(index)) return stop_each(index);
+  if (time.elapsed_periods > kMaxElapsedPeriods || has_lost_one(index)) return stop_each(index);
   for (std::int64_t period = 0; period < time.elapsed_periods; ++period) {
     travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
     travel.times.note(travel.clock.now());
   }
-  const bool ending = travel.phase == Phase::kEnding;
   for_each_member(index, [&](JointInLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
@@ -137,66 +116,27 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     // Of the setpoint in the same state: the reference reaches the present point one period later, or more.
     const double later_periods = 1.0 + joint.law.controller().plan().lead_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
-    joint.ordered.note({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
+    joint.ordered.note({shown.time_s, travel.clock.is_to_rest() && shown.rate == 0.0});
   });
-  if (is_over(index)) {
-    for_each_member(index, [](JointInLoop& joint, Member&) { joint.end_orders(); });
-    return free(index);
-  }
-  if (travel.phase == Phase::kEnding && (travel.rest_cycles -= time.elapsed_periods) <= 0) stop_each(index);
+  if (travel.times.ago(travel.most_behind_periods).time_s < travel.duration_s) return;
+  for_each_member(index, [](JointInLoop& joint, Member&) { joint.end_orders(); });
+  free(index);
 }
 
-// Of one that ends early all joints are on it until all rest: what is to stop with them waits for that.
-bool PathFollower::is_over(std::size_t index) noexcept {
-  const Travel& travel = travels_[index];
-  const PathTime last = travel.times.ago(travel.most_behind_periods);
-  const bool arrived = last.time_s >= travel.duration_s;
-  if (travel.phase != Phase::kEnding) return arrived;
-  bool all_rest = arrived || (travel.clock.rests() && last.rate == 0.0);
-  for_each_member(index,
-                  [&](JointInLoop& joint, Member&) { all_rest = all_rest && joint.law.motion().at_target; });
-  return all_rest;
-}
-
+// Those that are still on the path.
 void PathFollower::stop_each(std::size_t travel) noexcept {
   for_each_member(travel, [](JointInLoop& joint, Member&) {
+    if (!joint.ordered.on_path()) return;
     joint.law.controller().stop();
     joint.end_orders();
   });
   free(travel);
 }
 
-// A joint that faulted, was disabled or got another order has left the path, and the path ends.
-// False: its other joints are to stop at once.
-bool PathFollower::release_lost(std::size_t travel) noexcept {
+bool PathFollower::has_lost_one(std::size_t travel) noexcept {
   bool lost = false;
-  bool at_once = false;
-  for_each_member(travel, [&](JointInLoop& joint, Member& member) {
-    if (joint.ordered.on_path()) return;
-    member.travel = kNoTravel;
-    lost = true;
-    at_once = at_once || joint.others_stop() == OthersStop::kAtOnce;
-  });
-  if (lost && !at_once) bring_to_rest(travel);
-  return !at_once;
-}
-
-void PathFollower::bring_to_rest(std::size_t index) noexcept {
-  Travel& travel = travels_[index];
-  travel.clock.rest();
-  if (travel.phase == Phase::kEnding) return;
-  double longest_s = 0.0;
-  for_each_member(index, [&](JointInLoop& joint, Member& member) {
-    if (joint.path == nullptr) return;
-    joint.ordered.path_ends();
-    PathReader reader = member.reader;
-    const PathPoint here = reader.at(joint.path->path, travel.clock.time_s());
-    longest_s = std::max(longest_s,
-                         std::abs(here.velocity_rad_s) / joint.config.controller.motion.deceleration_rad_s2);
-  });
-  travel.rest_cycles = std::llround(
-      kPatience * (longest_s + 1.0 / PathClock::kFastestChange_1_s) / period_s_ + travel.most_behind_periods);
-  travel.phase = Phase::kEnding;
+  for_each_member(travel, [&](JointInLoop& joint, Member&) { lost = lost || !joint.ordered.on_path(); });
+  return lost;
 }
 
 RateRoom PathFollower::room(std::size_t index) noexcept {

@@ -6,15 +6,10 @@
 //
 //   resume   -> all joints of the path begin in the next cycle, or none
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow
-//   hold, or a joint that is lost (fault, disable, another order)
-//            -> likewise, and then the path is over: the others rest on it and hold
-//   a joint that is lost to what is in its way, or that others live on as well (daemon/realtime/joint/fault_reach.h)
-//            -> each of the others stops on its own, at once
+//   one joint is lost (hold, disable, fault, yield, another order)
+//            -> each of the others stops on its own in the next cycle, and the path is over
 //
-// Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
-// twice the time that they need on their own, stop on their own.
-//
-// After a gap of more than kMaxElapsedPeriods in which the loop did not run each joint comes to rest on its own, and the path is over.
+// So it is after a gap of more than kMaxElapsedPeriods in which the loop did not run.
 #pragma once
 
 #include <cstddef>
@@ -41,15 +36,13 @@ class PathFollower {
   /// Starts the path that `joint` has a part of, with all of its joints, or goes on with it.
   Ruling resume(std::size_t joint) noexcept;
   Ruling pause(std::size_t joint) noexcept;
-  /// The path of `joint` ends, along it. False when it is on none that moves yet.
-  bool end(std::size_t joint) noexcept;
 
   /// Before the joints' own steps: gives each one on a path its setpoint.
   void advance(const CycleTime& time) noexcept;
 
  private:
   static constexpr std::size_t kNoTravel = static_cast<std::size_t>(-1);
-  enum class Phase { kFree, kBeginning, kUnderWay, kEnding };
+  enum class Phase { kFree, kBeginning, kUnderWay };
   /// One path that is travelled.
   struct Travel {
     Phase phase = Phase::kFree;
@@ -57,7 +50,6 @@ class PathFollower {
     PathTimes times;                   ///< of the clock
     double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
-    std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
   };
   /// A joint's place on it.
   struct Member {
@@ -71,10 +63,8 @@ class PathFollower {
   bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
   void wait_for_the_slowest(std::size_t travel) noexcept;
   void advance(std::size_t travel, const CycleTime& time) noexcept;
-  bool release_lost(std::size_t travel) noexcept;
-  bool is_over(std::size_t travel) noexcept;
+  bool has_lost_one(std::size_t travel) noexcept;
   void stop_each(std::size_t travel) noexcept;
-  void bring_to_rest(std::size_t travel) noexcept;
   RateRoom room(std::size_t travel) noexcept;
   void free(std::size_t travel) noexcept;
 

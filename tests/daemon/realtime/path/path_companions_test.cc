@@ -95,14 +95,12 @@ TEST_F(PathCompanions, LeaveGoAndArriveTogether) {
   for (const auto& joint : went_) EXPECT_NEAR(joint.back(), kFar_rad, 1e-4);
 }
 
-TEST_F(PathCompanions, PauseGoOnAndHoldTogether) {
+TEST_F(PathCompanions, PauseAndGoOnTogether) {
   run(0.8);
   ASSERT_EQ(bench_.order(3, OrderKind::kPausePath), Reason::kAccepted);
   run(0.5);
   ASSERT_EQ(bench_.order(1, OrderKind::kResumePath), Reason::kAccepted);
-  run(0.5);
-  ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
-  run(0.5);
+  run(kDuration_s);
   EXPECT_LT(farthest_apart_rad(), kBrakedTogether_rad);
   EXPECT_TRUE(all_hold());
 }

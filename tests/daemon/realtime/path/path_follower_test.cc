@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints on paths, in virtual time: real joint loops over simulated drives. Above 300 lines: every event on a path has its test.
+// Joints on paths, in virtual time: real joint loops over simulated drives.
 #include "daemon/realtime/path/path_follower.h"
 
 #include <gtest/gtest.h>
@@ -140,31 +140,59 @@ TEST_F(PathFollowerTest, StatesTellWhereAPathIsAndThatItIsPaused) {
   EXPECT_FALSE(paused(0));
   EXPECT_GT(bench_.state(0).path_time_s, paused_s);
   ASSERT_EQ(bench_.order(1, OrderKind::kHold), Reason::kAccepted);
-  run(0.05);
-  EXPECT_FALSE(paused(0)) << "it ends, and nobody can resume it";
-  run(1.0);
+  run(0.01);
   EXPECT_TRUE(std::isnan(bench_.state(0).path_time_s));
   EXPECT_FALSE(paused(0));
 }
 
-TEST_F(PathFollowerTest, AHoldOfOneJointEndsThePathForAllAlongIt) {
-  begin();
-  run(0.7);
-  ASSERT_EQ(bench_.order(4, OrderKind::kHold), Reason::kAccepted);
-  run(0.3);
-  EXPECT_TRUE(all_are(Mode::kHolding));
-  for (std::size_t i = 0; i < kJoints; ++i)
-    EXPECT_EQ(traces_[i].last_motion(), traces_[0].last_motion()) << "they rest in one cycle, " << i;
-  EXPECT_EQ(bench_.order(0, OrderKind::kResumePath), Reason::kWrongMode) << "it is over";
+/// Of what ends the motion of one joint, also against a wall: how the others stop.
+class PathEnds : public PathFollowerTest {
+ protected:
+  static constexpr std::size_t kLost = 4;
+  PathEnds() : PathFollowerTest(joints()) {
+    begin();
+    run(0.4);
+  }
+  static std::vector<BenchJoint> joints() {
+    std::vector<BenchJoint> joints(kJoints, demo_joint());
+    joints[kLost].drive.plant.effects.contact = {0.25, 2000.0, 0.2 * std::sqrt(2000.0 * 0.089)};
+    joints[kLost].loop.limits.load.load_Nm = 8.0;
+    joints[kLost].loop.limits.load.notice_Nm = 6.0;
+    joints[kLost].loop.overload_stop = OverloadStop::kHoldLoad;
+    return joints;
+  }
+  /// Within what the deceleration needs from 0.8 rad/s; along the path it takes a tenth of a second and more.
+  void expect_the_others_to_stop_at_once() {
+    run(0.04);
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      if (i == kLost) continue;
+      EXPECT_EQ(bench_.mode(i), Mode::kHolding) << i;
+      EXPECT_LT(std::abs(bench_.state(i).setpoint_velocity_rad_s), kStands_rad_s) << i;
+      EXPECT_TRUE(std::isnan(bench_.state(i).path_time_s)) << i;
+    }
+    EXPECT_EQ(bench_.order(0, OrderKind::kResumePath), Reason::kWrongMode) << "it is over";
+  }
+};
+
+TEST_F(PathEnds, AtOnceWhenOneJointIsHeld) {
+  ASSERT_EQ(bench_.order(kLost, OrderKind::kHold), Reason::kAccepted);
+  expect_the_others_to_stop_at_once();
 }
 
-TEST_F(PathFollowerTest, ADisableOrAnotherOrderOfOneJointEndsThePathOfTheOthers) {
-  begin();
-  run(0.5);
-  ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
-  run(0.5);
-  EXPECT_EQ(bench_.mode(0), Mode::kOff);
-  for (std::size_t i = 1; i < kJoints; ++i) EXPECT_EQ(bench_.mode(i), Mode::kHolding) << i;
+TEST_F(PathEnds, AtOnceWhenOneJointIsDisabled) {
+  ASSERT_EQ(bench_.order(kLost, OrderKind::kDisable), Reason::kAccepted);
+  expect_the_others_to_stop_at_once();
+}
+
+TEST_F(PathEnds, AtOnceWhenOneJointFaults) {
+  ASSERT_EQ(bench_.inject(kLost, {InjectedFault::kSensorNan}), Reason::kAccepted);
+  expect_the_others_to_stop_at_once();
+}
+
+TEST_F(PathEnds, AtOnceWhenOneJointYieldsToAWall) {
+  ASSERT_GE(bench_.step_until([&] { return bench_.has_notice(kLost, Notice::kYielded); }, 1000), 0);
+  expect_the_others_to_stop_at_once();
+  EXPECT_EQ(bench_.fault(kLost), Fault::kNone);
 }
 
 TEST_F(PathFollowerTest, AMoveTakesAJointOffThePathAndTheOthersRest) {
