@@ -130,9 +130,6 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   read_limits(limits, joint.plant.gear_ratio, joint.loop);
   read_temperature_check(section.section_or_empty("temperature"), joint.loop);
   if (section.has("group")) joint.group = read_name(section, "group", "");
-  joint.loop.fault_stops_group = section.choice_or("on_fault", "joint", {"joint", "group"}) == "group";
-  if (joint.loop.fault_stops_group && joint.group.empty())
-    section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
   read_control(section.section_or_empty("control"), joint.loop);

@@ -39,10 +39,9 @@ struct JointLoopConfig {
   JointLimits limits;
   TemperatureCheckConfig temperature;
   HomingConfig homing;
-  int group = -1;                  ///< joints with the same number >= 0 belong together
-  bool fault_stops_group = false;  ///< a fault of this joint stops its group
-  double start_timeout_s = 2.0;    ///< from enable to the drive's readiness
-  double stop_timeout_s = 3.0;     ///< from disable to standstill
+  int group = -1;                ///< joints with the same number >= 0 stop when one of them faults
+  double start_timeout_s = 2.0;  ///< from enable to the drive's readiness
+  double stop_timeout_s = 3.0;   ///< from disable to standstill
   double standstill_rad_s = 0.01;
   double blocked_s = 0.5;    ///< at the torque limit without progress, before it is a fault
   double overload_s = 0.02;  ///< that a load is too large, before the joint yields

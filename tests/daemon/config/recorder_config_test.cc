@@ -34,19 +34,11 @@ class RecorderConfigTest : public ConfigFileTest {
 };
 
 TEST_F(RecorderConfigTest, NumbersGroupsByTheirNames) {
-  const DaemonConfig config = read(joint("a", "group = \"arm\"\non_fault = \"group\"\n") + joint("b") +
+  const DaemonConfig config = read(joint("a", "group = \"arm\"\n") + joint("b") +
                                    joint("c", "group = \"hand\"\n") + joint("d", "group = \"arm\"\n"));
   EXPECT_EQ(config.joints[0].loop.group, config.joints[3].loop.group);
   EXPECT_NE(config.joints[0].loop.group, config.joints[2].loop.group);
   EXPECT_EQ(config.joints[1].loop.group, -1);
-  EXPECT_TRUE(config.joints[0].loop.fault_stops_group);
-  EXPECT_FALSE(config.joints[3].loop.fault_stops_group);
-}
-
-TEST_F(RecorderConfigTest, RefusesToStopAGroupThatDoesNotExist) {
-  const std::string text = error(joint("a", "on_fault = \"group\"\n"));
-  EXPECT_NE(text.find("joint.group"), std::string::npos) << text;
-  EXPECT_NE(error(joint("a", "on_fault = \"all\"\n")).find("\"joint\", \"group\""), std::string::npos);
 }
 
 TEST_F(RecorderConfigTest, RecordsNothingWithoutADirectory) {

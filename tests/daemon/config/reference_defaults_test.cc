@@ -38,8 +38,7 @@ Values daemon_values(const DaemonConfig& config) {
 
 Values loop_values(const JointLoopConfig& loop) {
   const TemperatureCheckConfig& temperature = loop.temperature;
-  return {{"joint.on_fault", loop.fault_stops_group},
-          {"joint.damping_Nms_rad", loop.controller.link ? loop.controller.link->damping_Nms_rad : -1.0},
+  return {{"joint.damping_Nms_rad", loop.controller.link ? loop.controller.link->damping_Nms_rad : -1.0},
           {"joint.limits.position_margin_rad", loop.limits.position_margin_rad},
           {"joint.limits.deceleration_rad_s2", loop.controller.motion.deceleration_rad_s2},
           {"joint.limits.move_speed_share", loop.move_speed_share},

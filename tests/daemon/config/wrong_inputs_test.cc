@@ -230,12 +230,6 @@ const std::vector<ConfigCase> kConfigCases{
      {":23: joint[0].control.initial_load_Nm = 1e+06", "a number from -34 to 34 is allowed"}},
     {"\"sine:15,25,1\"", "\"sine:15\"", {":24: joint[0].simulated.ambient_temperature_C = \"sine:15\""}},
     {"\"sine:15,25,1\"", "\"constant:-300\"", {"ambient_temperature_C = \"constant:-300\""}},
-    {"driver = \"simulated\"",
-     "driver = \"simulated\"\non_fault = \"group\"",
-     {"on_fault = \"group\"", "joint.group"}},
-    {"driver = \"simulated\"",
-     "driver = \"simulated\"\non_fault = \"stop\"",
-     {"on_fault = \"stop\"", "\"joint\", \"group\""}},
     // Where LCM's messages go.
     {"period_s = 0.001",
      "period_s = 0.001\nlcm_url = \"239.255.76.67:7667\"",

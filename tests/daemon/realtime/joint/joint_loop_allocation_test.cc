@@ -13,7 +13,6 @@ TEST(JointLoopAllocations, AreNoneInAMinuteOfCommandsTableSwapsAndFaults) {
   if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
   std::vector<BenchJoint> joints(4, demo_joint());
   joints[0].loop.group = joints[1].loop.group = 0;
-  joints[0].loop.fault_stops_group = true;
   JointBench bench(joints);
   std::vector<std::unique_ptr<FlightRecorder>> recorders;
   for (std::size_t i = 0; i < joints.size(); ++i) {
