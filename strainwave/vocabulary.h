@@ -140,8 +140,7 @@ enum class TemperatureStatus : std::int32_t {
   kNeverSeen = 1,
   kTooOld = 2,
   kOutOfRange = 3,
-  kTooFast = 4,
-  kNotChanging = 5
+  kTooFast = 4
 };
 
 /// One or two words each, lower case; "unknown" for a number without a meaning.

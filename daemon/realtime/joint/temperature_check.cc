@@ -14,16 +14,11 @@ double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
   return seen() ? std::max(0.0, seconds(now_ns - measured_ns_)) : -1.0;
 }
 
-bool TemperatureCheck::is_stuck(std::int64_t now_ns) const noexcept {
-  return config_.max_constant_s > 0.0 && seconds(now_ns - changed_ns_) > config_.max_constant_s;
-}
-
 TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t produced_ns,
                                           std::int64_t now_ns) const noexcept {
   if (!std::isfinite(temperature_C) || temperature_C < config_.min_C || temperature_C > config_.max_C)
     return TemperatureStatus::kOutOfRange;
   if (seconds(now_ns - produced_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
-  if (is_stuck(now_ns)) return TemperatureStatus::kNotChanging;
   if (use_ != Use::kNotYet) {
     // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
     // nothing was believed, the more may have changed, so that the signal can return.
@@ -37,7 +32,6 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
 void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64_t produced_ns,
                               std::int64_t now_ns) noexcept {
   if (has_reading) {
-    if (!seen() || temperature_C != measured_C_) changed_ns_ = now_ns;
     measured_C_ = std::isfinite(temperature_C) ? temperature_C : std::numeric_limits<double>::quiet_NaN();
     measured_ns_ = produced_ns;
     status_ = judge(temperature_C, produced_ns, now_ns);

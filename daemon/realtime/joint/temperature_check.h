@@ -12,12 +12,11 @@ namespace strainwave {
 struct TemperatureCheckConfig {
   double min_C = -40.0;  ///< plausible range of the sensor
   double max_C = 90.0;
-  double max_rate_C_s = 20.0;   ///< faster lasting changes are not heat but a broken wire
-  double max_step_C = 6.0;      ///< a reading may differ by this much from the recent past whatever the rate
-  double max_age_s = 5.0;       ///< older values are not used
-  double max_constant_s = 0.0;  ///< a sensor that shows the same number for longer is stuck; 0: not checked
-  bool loss_is_fault = false;   ///< a joint under control that loses its temperature stops
-  double recovery_s = 2.0;  ///< after a loss the signal must be good for this long before it is used again
+  double max_rate_C_s = 20.0;  ///< faster lasting changes are not heat but a broken wire
+  double max_step_C = 6.0;     ///< a reading may differ by this much from the recent past whatever the rate
+  double max_age_s = 5.0;      ///< older values are not used
+  bool loss_is_fault = false;  ///< a joint under control that loses its temperature stops
+  double recovery_s = 2.0;     ///< after a loss the signal must be good for this long before it is used again
 };
 
 class TemperatureCheck {
@@ -47,7 +46,6 @@ class TemperatureCheck {
   enum class Use { kNotYet, kUsed, kRecovering };
 
   bool seen() const noexcept { return status_ != TemperatureStatus::kNeverSeen; }
-  bool is_stuck(std::int64_t now_ns) const noexcept;
   TemperatureStatus judge(double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) const noexcept;
 
   TemperatureCheckConfig config_;
@@ -57,7 +55,6 @@ class TemperatureCheck {
   double accepted_C_ = 0.0;
   double recent_C_ = 0.0;  ///< accepted readings, low-passed so that a ramp of max_rate lags by max_step
   std::int64_t measured_ns_ = 0;
-  std::int64_t changed_ns_ = 0;  ///< when the reading last became another number
   std::int64_t accepted_ns_ = 0;
   std::int64_t good_since_ns_ = 0;
 };

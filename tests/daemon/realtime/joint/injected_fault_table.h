@@ -39,8 +39,6 @@ inline void PrintTo(const InjectedFaultCase& entry, std::ostream* out) {
 
 /// Limits of the joint on which the promises hold; docs/faults.md names them.
 inline constexpr double kTableMaxAge_s = 1.0;
-inline constexpr double kTableMaxConstant_s = 2.0;
-inline constexpr int kTableOverrunLimit = 10;
 
 inline const std::vector<InjectedFaultCase>& injected_fault_table() {
   using K = InjectedFault;
@@ -89,7 +87,7 @@ inline const std::vector<InjectedFaultCase>& injected_fault_table() {
        1},
       {"SensorSmallJump", {K::kSensorJump, 0, 0, 0.01}, D::kHolding, R::kFault, {Fault::kSpeedLimit}, 20},
       {"TemperatureLost", {K::kTemperatureLost}, D::kMoving, R::kFallbackGains, {}, 1001},
-      {"TemperatureStuck", {K::kTemperatureStuck}, D::kHolding, R::kFallbackGains, {}, 2001},
+      {"TemperatureStuck", {K::kTemperatureStuck}, D::kHolding, R::kNone, {}, 2000},
       {"TemperatureDriftingFast",
        {K::kTemperatureDrifting, 0, 0, 40.0},
        D::kHolding,

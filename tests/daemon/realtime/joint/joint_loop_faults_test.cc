@@ -15,7 +15,6 @@ namespace {
 BenchJoint table_joint() {
   BenchJoint joint = demo_joint();
   joint.loop.temperature.max_age_s = kTableMaxAge_s;
-  joint.loop.temperature.max_constant_s = kTableMaxConstant_s;
   return joint;
 }
 
