@@ -41,7 +41,6 @@ enum class Fault : std::int32_t {
   kSpeedLimit = 13,
   kFollowingError = 14,
   kNotFinite = 15,
-  kOverruns = 16,
   kTemperatureLimit = 17,
   kGroup = 18,
   kHomingFailed = 19,

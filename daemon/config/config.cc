@@ -38,7 +38,6 @@ LoopConfig read_loop(TomlSection& section) {
   loop.priority = static_cast<int>(section.integer_or("priority", loop.priority, 1, 98));
   loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, last_processor()));
   OverrunLimits& overruns = loop.overruns;
-  overruns.in_a_row = static_cast<int>(section.integer_or("overrun_limit", overruns.in_a_row, 1, 1000000));
   overruns.stall_s = section.number_or("stall_limit_s", std::max(overruns.stall_s, 2.0 * loop.period_s),
                                        {2.0 * loop.period_s, 1e6});
   overruns.missed_share = section.number_or("missed_share_limit", overruns.missed_share, {0.0, 1.0});

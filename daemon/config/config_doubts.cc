@@ -187,10 +187,6 @@ void doubt_loop(const TomlSection& section, const LoopConfig& loop) {
   const auto off = [&](const char* key, bool doubtful, const std::string& what, double usual) {
     if (section.has(key) && doubtful) section.warn(key, what + "; left out it is " + number_text(usual));
   };
-  off("overrun_limit", loop.overruns.in_a_row * loop.period_s > kLongAbsence_s,
-      "a loop that is late cycle after cycle is stopped only after " +
-          number_text(loop.overruns.in_a_row * loop.period_s) + " s",
-      defaults.in_a_row);
   off("stall_limit_s", loop.overruns.stall_s > kLongAbsence_s,
       "for so long a joint may be without control before it is a fault", defaults.stall_s);
   off("missed_share_limit", loop.overruns.missed_share > kLargeShare,

@@ -11,7 +11,7 @@
 namespace strainwave::testing {
 namespace {
 
-constexpr OverrunLimits kAnything{1'000'000, 1e6, 1.0};
+constexpr OverrunLimits kAnything{1e6, 1.0};
 
 /// A joint that moves at 2 rad/s, at a steady speed.
 class StalledLoop : public ::testing::Test {
@@ -70,7 +70,7 @@ TEST_F(StalledLoop, IsAFaultAfterThreeSeconds) {
 
 TEST_F(StalledLoop, IsAFaultBeforeItHasBeenAwayForTwentyMillisecondsManyTimes) {
   // Each stall by itself is allowed here.
-  move({10, 0.1, 0.1});
+  move({0.1, 0.1});
   int stalls = 0;
   for (; stalls < 232 && bench_->fault(0) == Fault::kNone; ++stalls) {
     bench_->stall(20);
@@ -119,7 +119,7 @@ void stall_anywhere(const BenchJoint& joint, const OverrunLimits& limits, int pe
 
 TEST(ToleratedStall, MakesNoOtherFaultWithWhatTheDemoTolerates) {
   for (const int periods : {1, 5, 9, 10, 19, 49, 50, 80, 300, 1990})
-    stall_anywhere(watched_joint({4.0, 30.0, 30.0}, 8.0), {1000, 2.0, 1.0}, periods, 5.0);
+    stall_anywhere(watched_joint({4.0, 30.0, 30.0}, 8.0), {2.0, 1.0}, periods, 5.0);
 }
 
 TEST(ToleratedStall, MakesNoOtherFaultWithWhatIsToleratedByDefault) {

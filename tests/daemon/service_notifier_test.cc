@@ -61,7 +61,7 @@ TEST(TimingProof, NeedsCyclesInARowWithoutASkippedPeriod) {
 TEST(TimingProof, IsGivenOnce) {
   TimingProof proof(100);
   EXPECT_TRUE(proof.update(100, 0));
-  EXPECT_TRUE(proof.update(101, 7)) << "later overruns are the loop's own matter: overrun_limit";
+  EXPECT_TRUE(proof.update(101, 7)) << "later overruns are the loop's own matter: missed_share_limit";
 }
 
 TEST_F(ServiceManager, HearsReadyOnceAndOnlyWhenTheTimingIsMet) {

@@ -138,10 +138,9 @@ std::string attended(std::string joints) {
 }  // namespace
 
 std::string DaemonTest::configuration(const std::string& joint_extra, const std::string& daemon_extra) {
-  const std::string real_time =
-      in_virtual_time()
-          ? "real_time = \"enforce\"\n"
-          : "real_time = \"ignore\"\noverrun_limit = 100000\nstall_limit_s = 100\nmissed_share_limit = 1\n";
+  const std::string real_time = in_virtual_time()
+                                    ? "real_time = \"enforce\"\n"
+                                    : "real_time = \"ignore\"\nstall_limit_s = 100\nmissed_share_limit = 1\n";
   return "[daemon]\n" + real_time + daemon_extra +
          R"(
 [security]

@@ -81,14 +81,14 @@ TEST_F(DaemonInjection, GoesOnWhenTheRecordCannotBeWritten) {
   EXPECT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding));
 }
 
-TEST_F(DaemonInjection, FaultsWhenTooManyPeriodsInARowAreMissed) {
+TEST_F(DaemonInjection, FaultsWhenTooManyPeriodsAreMissed) {
   std::string text = configuration();
-  const std::string key = "overrun_limit = 100000";
-  text.replace(text.find(key), key.size(), "overrun_limit = 20");
+  const std::string key = "missed_share_limit = 1";
+  text.replace(text.find(key), key.size(), "missed_share_limit = 0.2");
   start_holding(text);
   ASSERT_TRUE(inject(InjectedFault::kOverrun, 1.0, 0.003).accepted);
   ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kFaulted));
-  EXPECT_EQ(client_->state("elbow")->fault, static_cast<int>(Fault::kOverruns));
+  EXPECT_EQ(client_->state("elbow")->fault, static_cast<int>(Fault::kPeriodsMissed));
   ASSERT_TRUE(client_->wait_for_timing());
   EXPECT_GE(client_->timing()->overruns, 20);
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of its periods a loop may miss. A few are noise of the machine; many in a row, a long stall, or many in a second, and
-// the loop no longer controls. Real-time safe.
+// How much of its periods a loop may miss. A few are noise of the machine; after a long stall, or with many in a second, the loop no
+// longer controls. Real-time safe.
 //
-//   late cycles in a row >= in_a_row                         -> kOverruns
-//   one stall, from the period before to this one > stall_s  -> kLoopStalled
-//   periods missed in the last second > missed_share of it   -> kPeriodsMissed
+//   one stall, from the period before to this one > stall_s     -> kLoopStalled
+//   missed > missed_share * second                              -> kPeriodsMissed
+//
+// All in periods; what was missed is forgotten within about a second:
+//
+//   missed := missed * (1 - elapsed / second) + skipped         a loop that always misses a share s arrives at s * second
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "strainwave/vocabulary.h"
@@ -16,35 +19,34 @@
 namespace strainwave {
 
 struct OverrunLimits {
-  int in_a_row = 10;          ///< cycles that begin a period or more late
   double stall_s = 0.02;      ///< > 0
   double missed_share = 0.1;  ///< of a second's periods, in [0, 1]; 1: never
 };
 
 class OverrunWatch {
  public:
-  OverrunWatch(const OverrunLimits& limits, double period_s) noexcept;
+  OverrunWatch(const OverrunLimits& limits, double period_s) noexcept
+      : second_periods_(1.0 / period_s),
+        stall_limit_periods_(std::max(1.0, std::round(limits.stall_s / period_s))),
+        missed_limit_periods_(limits.missed_share * second_periods_) {}
 
   /// One cycle that began after `skipped` periods were left out. The fault that this makes, or kNone; what was counted towards it
   /// is then forgotten.
-  Fault judge(std::int64_t skipped) noexcept;
+  Fault judge(std::int64_t skipped) noexcept {
+    const auto left_out = static_cast<double>(skipped);
+    const double kept = std::max(0.0, 1.0 - (1.0 + left_out) / second_periods_);
+    missed_periods_ = kept * missed_periods_ + std::min(left_out, second_periods_);
+    const bool stalled = skipped > 0 && 1.0 + left_out > stall_limit_periods_;
+    if (!stalled && missed_periods_ <= missed_limit_periods_) return Fault::kNone;
+    missed_periods_ = 0.0;
+    return stalled ? Fault::kLoopStalled : Fault::kPeriodsMissed;
+  }
 
  private:
-  void count(std::int64_t skipped) noexcept;
-  std::int64_t missed() const noexcept;
-
-  // The last second in slots, each with the periods missed in it.
-  static constexpr std::size_t kSlots = 20;
-  static constexpr double kWindow_s = 1.0;
-
-  int in_a_row_limit_;
-  std::int64_t stall_limit_periods_;
-  std::int64_t missed_limit_periods_;
-  std::int64_t slot_periods_;
-  int in_a_row_ = 0;
-  std::array<std::int64_t, kSlots> missed_{};
-  std::size_t slot_ = 0;
-  std::int64_t in_slot_periods_ = 0;
+  double second_periods_;
+  double stall_limit_periods_;
+  double missed_limit_periods_;
+  double missed_periods_ = 0.0;
 };
 
 }  // namespace strainwave

@@ -23,7 +23,6 @@ Values daemon_values(const DaemonConfig& config) {
           {"daemon.real_time", loop.real_time == RealTimePolicy::kEnforce},
           {"daemon.priority", loop.priority},
           {"daemon.cpu", loop.cpu},
-          {"daemon.overrun_limit", loop.overruns.in_a_row},
           {"daemon.stall_limit_s", loop.overruns.stall_s},
           {"daemon.missed_share_limit", loop.overruns.missed_share},
           {"daemon.state_rate_Hz", loop.state_rate_Hz},

@@ -336,9 +336,6 @@ const std::vector<ConfigCase> kDoubtCases{
     {"period_s = 0.001",
      "period_s = 0.001\nstall_limit_s = 2.0",
      {":3: daemon.stall_limit_s = 2", "without control", "left out it is 0.02"}},
-    {"period_s = 0.001",
-     "period_s = 0.001\noverrun_limit = 1000",
-     {":3: daemon.overrun_limit = 1000", "only after 1 s", "left out it is 10"}},
 };
 
 TEST_F(WrongInput, ThatIsAllowedIsDoubtedWithTheLikelyMeaning) {

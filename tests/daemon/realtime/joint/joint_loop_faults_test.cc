@@ -20,7 +20,7 @@ BenchJoint table_joint() {
 
 class InjectedFaults : public ::testing::TestWithParam<InjectedFaultCase> {
  protected:
-  InjectedFaults() : bench_({table_joint()}, {kTableOverrunLimit, 0.02, 0.1}) {}
+  InjectedFaults() : bench_({table_joint()}, {0.02, 0.1}) {}
 
   void SetUp() override {
     bench_.bring_to_hold(0);
@@ -160,7 +160,7 @@ TEST(InjectedFaults, AreRefusedByAnotherDrive) {
   EXPECT_EQ(reply.reason, Reason::kNotSimulated);
 }
 
-TEST(InjectedFaults, OfTooFewOverrunsInARowAreOnlyCounted) {
+TEST(InjectedFaults, OfTooFewOverrunsAreOnlyCounted) {
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
   for (int i = 0; i < 20; ++i) {

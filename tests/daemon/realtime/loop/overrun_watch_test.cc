@@ -8,26 +8,8 @@ namespace {
 
 constexpr double kPeriod_s = 0.001;
 
-TEST(OverrunWatch, SpeaksAtTheLimitOfLateCyclesInARowAndBeginsAnew) {
-  OverrunWatch watch({3, 1.0, 1.0}, kPeriod_s);
-  for (int round = 0; round < 4; ++round) {
-    EXPECT_EQ(watch.judge(1), Fault::kNone);
-    EXPECT_EQ(watch.judge(1), Fault::kNone);
-    EXPECT_EQ(watch.judge(1), Fault::kOverruns);
-  }
-}
-
-TEST(OverrunWatch, BeginsToCountARowAnewWithACycleInTime) {
-  OverrunWatch watch({3, 1.0, 1.0}, kPeriod_s);
-  for (int round = 0; round < 100; ++round) {
-    EXPECT_EQ(watch.judge(1), Fault::kNone);
-    EXPECT_EQ(watch.judge(1), Fault::kNone);
-    EXPECT_EQ(watch.judge(0), Fault::kNone);
-  }
-}
-
 TEST(OverrunWatch, SpeaksAtOnceOfAStallThatIsTooLong) {
-  OverrunWatch watch({1000, 0.02, 1.0}, kPeriod_s);
+  OverrunWatch watch({0.02, 1.0}, kPeriod_s);
   EXPECT_EQ(watch.judge(19), Fault::kNone) << "20 ms from one cycle to the next";
   EXPECT_EQ(watch.judge(20), Fault::kLoopStalled);
   EXPECT_EQ(watch.judge(1'000'000'000), Fault::kLoopStalled);
@@ -38,7 +20,7 @@ TEST(OverrunWatch, SpeaksWhenALargerShareOfASecondIsMissedThanAllowedHoweverItIs
   for (const std::int64_t skipped : {1, 3, 15}) {
     // A cycle that misses `skipped` periods, then as many in time that the share is a little too large, or a little too small.
     for (const double share : {0.08, 0.12}) {
-      OverrunWatch watch({1000, 0.02, 0.1}, kPeriod_s);
+      OverrunWatch watch({0.02, 0.1}, kPeriod_s);
       const auto in_time = static_cast<std::int64_t>(static_cast<double>(skipped) * (1.0 / share - 1.0));
       bool spoken = false;
       for (std::int64_t periods = 0; periods < 5000 && !spoken; periods += skipped + in_time) {
@@ -50,17 +32,26 @@ TEST(OverrunWatch, SpeaksWhenALargerShareOfASecondIsMissedThanAllowedHoweverItIs
   }
 }
 
-TEST(OverrunWatch, ForgetsWhatIsMoreThanASecondAgo) {
-  OverrunWatch watch({1000, 0.02, 0.1}, kPeriod_s);
+TEST(OverrunWatch, SpeaksWithinAQuarterOfASecondOfALoopThatIsLateInEveryCycle) {
+  OverrunWatch watch({0.02, 0.1}, kPeriod_s);
+  int cycles = 1;
+  for (; watch.judge(1) == Fault::kNone && cycles < 1000; ++cycles) {
+  }
+  EXPECT_LE(2 * cycles, 250);
+  EXPECT_EQ(watch.judge(1), Fault::kNone) << "it begins anew";
+}
+
+TEST(OverrunWatch, ForgetsWhatIsSecondsAgo) {
+  OverrunWatch watch({0.02, 0.1}, kPeriod_s);
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < 9; ++i) EXPECT_EQ(watch.judge(10), Fault::kNone) << "90 of a thousand";
-    for (int i = 0; i < 1100; ++i) EXPECT_EQ(watch.judge(0), Fault::kNone);
+    for (int i = 0; i < 3000; ++i) EXPECT_EQ(watch.judge(0), Fault::kNone);
   }
 }
 
 TEST(OverrunWatch, ToleratesAnythingWhereTheLimitsSaySo) {
-  OverrunWatch watch({1'000'000, 1e6, 1.0}, kPeriod_s);
-  for (int i = 0; i < 10000; ++i) EXPECT_EQ(watch.judge(50), Fault::kNone);
+  OverrunWatch watch({1e6, 1.0}, kPeriod_s);
+  for (int i = 0; i < 10000; ++i) EXPECT_EQ(watch.judge(i % 2000), Fault::kNone);
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class RunningLoop : public ::testing::Test {
  protected:
   RunningLoop() {
     config_.real_time = RealTimePolicy::kIgnore;
-    config_.overruns = {1'000'000, 1.0, 1.0};
+    config_.overruns = {1.0, 1.0};
   }
   ~RunningLoop() override { loop_.reset(); }
 
