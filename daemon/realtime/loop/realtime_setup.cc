@@ -29,23 +29,12 @@ std::string error_text(int error) {
   return std::generic_category().message(error);
 }
 
-/// The processors that the cpuset leaves to the process, whatever its threads chose among them: "0-1,4".
-std::string processors_of_cpuset() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  for (std::size_t i = 0; i < CPU_SETSIZE; ++i) CPU_SET(i, &set);
-  (void)::sched_setaffinity(0, sizeof set, &set);  // of this thread, which has no processor of its own yet
-  if (::sched_getaffinity(0, sizeof set, &set) != 0) return "?";
-  std::string text;
-  for (std::size_t first = 0; first < CPU_SETSIZE; ++first) {
-    if (!CPU_ISSET(first, &set)) continue;
-    std::size_t last = first;
-    while (last + 1 < CPU_SETSIZE && CPU_ISSET(last + 1, &set)) ++last;
-    text += (text.empty() ? "" : ",") + std::to_string(first);
-    if (last > first) text += "-" + std::to_string(last);
-    first = last;
-  }
-  return text;
+/// What /proc/self/status says under `name`; empty when it does not.
+std::string own_status(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name + ":\t")) return line.substr(name.size() + 2);
+  return "";
 }
 
 /// Empty when granted, or when `cpu` is negative.
@@ -57,25 +46,8 @@ std::string pin_this_thread(int cpu) {
   if (::sched_setaffinity(0, sizeof set, &set) == 0) return "";
   const std::string error = error_text(errno);
   return "daemon.cpu = " + std::to_string(cpu) + ": processor " + std::to_string(cpu) + " cannot be used (" +
-         error + "): the cpuset of this process has " + processors_of_cpuset() +
+         error + "): this process may use " + own_status("Cpus_allowed_list") +
          "; name one of these, or give it this one (container: --cpuset-cpus, service: AllowedCPUs)";
-}
-
-/// Where cgroups of version 1 have it; with version 2 the kernel shows none.
-std::optional<long> cgroup_rt_runtime_us() {
-  std::string path;
-  std::ifstream own("/proc/self/cgroup");
-  for (std::string line; std::getline(own, line);)
-    if (line.find(":cpu:") != std::string::npos || line.find(":cpu,") != std::string::npos)
-      path = line.substr(line.rfind(':') + 1);
-  // In a container its own cgroup is mounted as the root.
-  for (const std::string& folder : {path, std::string()}) {
-    for (const char* const controller : {"cpu", "cpu,cpuacct"}) {
-      std::ifstream file(std::string("/sys/fs/cgroup/") + controller + "/" + folder + "/cpu.rt_runtime_us");
-      if (long budget_us = 0; file >> budget_us) return budget_us;
-    }
-  }
-  return std::nullopt;
 }
 
 // Pages of the stack that the loop may reach exist before it starts.
@@ -95,31 +67,22 @@ std::string processor_problem(int cpu) {
 
 RealTimeRights real_time_rights() {
   RealTimeRights rights;
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("CapEff:"))
-      rights.cap_sys_nice = (std::strtoull(line.c_str() + 7, nullptr, 16) >> CAP_SYS_NICE & 1U) != 0;
+  rights.cap_sys_nice = (std::strtoull(own_status("CapEff").c_str(), nullptr, 16) >> CAP_SYS_NICE & 1U) != 0;
   rlimit limit{};
   ::getrlimit(RLIMIT_RTPRIO, &limit);
   rights.rtprio = limit.rlim_cur;
-  rights.cgroup_rt_runtime_us = cgroup_rt_runtime_us();
   return rights;
 }
 
 std::string real_time_remedy(const RealTimeRights& rights, int priority) {
   const std::string wanted = std::to_string(priority);
-  std::string remedy;
   if (!rights.cap_sys_nice && rights.rtprio < static_cast<rlim_t>(priority))
-    remedy = "the process has neither CAP_SYS_NICE nor RLIMIT_RTPRIO of " + wanted + " (it is " +
-             std::to_string(rights.rtprio) + "): run under the service, or after `ulimit -r " + wanted +
-             "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted;
-  if (rights.cgroup_rt_runtime_us && *rights.cgroup_rt_runtime_us == 0)
-    remedy += std::string(remedy.empty() ? "" : "; besides, ") +
-              "cpu.rt_runtime_us of its cgroup is 0, no time for real-time threads: a container needs "
-              "--cpu-rt-runtime=950000, or the machine a kernel without CONFIG_RT_GROUP_SCHED";
-  if (!remedy.empty()) return remedy;
-  return "neither CAP_SYS_NICE, RLIMIT_RTPRIO nor cpu.rt_runtime_us of its cgroup is in the way: a parent "
-         "cgroup without real-time budget or a seccomp filter of the container is";
+    return "the process has neither CAP_SYS_NICE nor RLIMIT_RTPRIO of " + wanted + " (it is " +
+           std::to_string(rights.rtprio) + "): run under the service, or after `ulimit -r " + wanted +
+           "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted;
+  return "CAP_SYS_NICE or RLIMIT_RTPRIO is there: a seccomp filter of the container is in the way, or a "
+         "cgroup without "
+         "real-time budget (container: --cpu-rt-runtime=950000)";
 }
 
 std::string lock_memory() {

@@ -4,7 +4,6 @@
 
 #include <sys/resource.h>
 
-#include <optional>
 #include <string>
 
 #include "base/unique_fd.h"
@@ -31,8 +30,6 @@ std::string processor_problem(int cpu);
 struct RealTimeRights {
   bool cap_sys_nice = false;  ///< in the effective set: root of a container often lacks it
   rlim_t rtprio = 0;          ///< RLIMIT_RTPRIO, which serves without the capability
-  std::optional<long>
-      cgroup_rt_runtime_us;  ///< cpu.rt_runtime_us of the process's cgroup, where the kernel has such budgets
 };
 /// Of this process.
 RealTimeRights real_time_rights();
