@@ -30,20 +30,11 @@ struct Place {
 struct Shape {
   std::string name;
   Place (*at)(double t_s);
-  /// Not where what is sampled is none: a sine of the samples' own rate, velocities that are not believed, a jump of a few milliradians.
-  bool says_so = true;
 };
 
 Place sine(double t_s, double amplitude_rad, double rate_Hz) {
   const double omega = 2.0 * std::numbers::pi * rate_Hz;
   return {amplitude_rad * std::sin(omega * t_s), amplitude_rad * omega * std::cos(omega * t_s)};
-}
-
-Place triangle(double t_s, double amplitude_rad, double rate_Hz) {
-  const double turn = t_s * rate_Hz + 0.25 - std::floor(t_s * rate_Hz + 0.25);
-  const double slope_rad_s = 4.0 * amplitude_rad * rate_Hz;
-  return turn < 0.5 ? Place{amplitude_rad * (4.0 * turn - 1.0), slope_rad_s}
-                    : Place{amplitude_rad * (3.0 - 4.0 * turn), -slope_rad_s};
 }
 
 Place square(double t_s, double amplitude_rad, double rate_Hz) {
@@ -66,13 +57,7 @@ const std::vector<Shape>& shapes() {
       {"sine of 1 rad, 3 Hz", [](double t) { return sine(t, 1.0, 3.0); }},
       {"sine of 2 rad, 0.7 Hz", [](double t) { return sine(t, 2.0, 0.7); }},
       {"sine of 0.3 rad, 8 Hz", [](double t) { return sine(t, 0.3, 8.0); }},
-      {"sine of 0.05 rad, 20 Hz", [](double t) { return sine(t, 0.05, 20.0); }, false},
-      {"sine of 2.9 rad, 2 Hz", [](double t) { return sine(t, 2.9, 2.0); }},
-      {"triangle of 1 rad, 2 Hz", [](double t) { return triangle(t, 1.0, 2.0); }},
-      {"triangle of 0.2 rad, 5 Hz", [](double t) { return triangle(t, 0.2, 5.0); }},
       {"square wave of 1 rad, 1 Hz", [](double t) { return square(t, 1.0, 1.0); }},
-      {"square wave of 0.2 rad, 5 Hz", [](double t) { return square(t, 0.2, 5.0); }},
-      {"square wave of 3 mrad, 4 Hz", [](double t) { return square(t, 3e-3, 4.0); }, false},
       {"sawtooth of 1 rad, 1.5 Hz", [](double t) { return sawtooth(t, 1.0, 1.5); }},
       {"steps to anywhere in 3 rad",
        [](double t) {
@@ -82,12 +67,6 @@ const std::vector<Shape>& shapes() {
        [](double t) {
          return Place{drawn(t, 1000.0), 0.0};
        }},
-      {"noise of 20 mrad on a sine",
-       [](double t) {
-         const Place smooth = sine(t, 0.5, 0.5);
-         return Place{smooth.position_rad + 0.02 * drawn(t, 1000.0), smooth.velocity_rad_s};
-       }},
-      {"chirp", [](double t) { return sine(t, 0.5, 0.5 + t); }},
   };
   return all;
 }
@@ -171,9 +150,9 @@ constexpr int kEvery[] = {50, 10, 2, 0};
                               << (with_velocity ? ", with velocity" : "");
 }
 
-void expect_calm(const Outcome& outcome, const Shape& shape, const ::testing::Message& what) {
+void expect_calm(const Outcome& outcome, const ::testing::Message& what) {
   EXPECT_EQ(outcome.fault, Fault::kNone) << what << ", at " << outcome.faulted_at;
-  EXPECT_TRUE(outcome.off_stream || !shape.says_so) << what;
+  EXPECT_TRUE(outcome.off_stream) << what;
   EXPECT_LT(outcome.rest_rad_s, 1e-3) << what;
 }
 
@@ -186,7 +165,7 @@ TEST(InfeasibleStreams, AreFollowedByARigidJointWithinItsLimitsAndSayTheyAreOff)
         for (const bool with_velocity : {false, true}) {
           const Outcome outcome = ride(kind, shape, every, with_velocity);
           const ::testing::Message message = what(shape, every, with_velocity);
-          expect_calm(outcome, shape, message);
+          expect_calm(outcome, message);
           EXPECT_LE(outcome.fastest_rad_s, limits.velocity_rad_s + 1e-9) << message;
           EXPECT_LE(outcome.farthest_rad, 3.2) << message;
           EXPECT_LE(outcome.hardest_rad_s2, limits.acceleration_rad_s2 + 1e-6) << message;
@@ -206,7 +185,7 @@ TEST(InfeasibleStreams, AreFollowedByAJointThatIsToldOfItsSpring) {
       const bool with_velocity = rides++ % 3 != 0;
       const Outcome outcome = ride({.told = true}, shape, every, with_velocity);
       const ::testing::Message message = what(shape, every, with_velocity);
-      expect_calm(outcome, shape, message);
+      expect_calm(outcome, message);
       EXPECT_LE(outcome.fastest_rad_s, 7.1) << message;
       EXPECT_LE(outcome.farthest_rad, 3.21) << message;
     }

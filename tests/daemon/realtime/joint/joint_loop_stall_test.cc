@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After a gap of more than kMaxElapsedPeriods in which the loop did not run a joint goes on from where it is.
+// After a gap of more than kMaxElapsedPeriods in which the loop did not run a joint goes on with its stream. Moves: tests/adversary/stalled_loop.cc.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/support/flexible_bench.h"
 #include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {
