@@ -8,10 +8,10 @@ from bench import Daemon, Drive, Recording, daemon_toml, joint_toml, make_bus, m
 
 class Endurance(unittest.TestCase):
     def test_a_joint_misses_no_frame(self):
-        self.move({'elbow': 3}, 20)
+        self.move({'elbow': 3}, 8)
 
     def test_three_joints_on_one_bus_miss_no_frame(self):
-        self.move({'shoulder': 1, 'elbow': 2, 'wrist': 3}, 8)
+        self.move({'shoulder': 1, 'elbow': 2, 'wrist': 3}, 4)
 
     def move(self, nodes, duration_s):
         make_bus()
