@@ -58,30 +58,26 @@ class Peer(unittest.TestCase):
         must('enable', JOINT)
         self.assertEqual(joint_state()['mode'], MODES['holding'])
 
-    def test_is_found_and_read(self):
+    def test_is_found_and_configured_as_start_up_does_it_also_by_late_answers(self):
         status, text = ctl('can-scan', BUS, timeout_s=10)
         print(text)
         self.assertEqual(status, 0, text)
         self.assertIn('000000FB', text)
         self.assertIn('CST', text)
-
-    def check(self):
-        make_key()
-        pathlib.Path('peer.toml').write_text(daemon_toml([joint_toml()]))
-        return ctl('can-check', 'peer.toml', timeout_s=30)
-
-    def test_is_configured_as_start_up_does_it(self):
         status, text = self.check()
         self.assertEqual(status, 0, text)
         self.assertIn('start-up would accept every drive', text)
         # It went through the peer's own states, and came back.
         self.assertEqual([line for line in self.log.read_text().splitlines() if line.startswith('nmt')][-2:],
                          ['nmt 5', 'nmt 127'])
-
-    def test_is_configured_though_its_answers_are_late(self):
         self.tell('late 100')
         status, text = self.check()
         self.assertEqual(status, 0, text)
+
+    def check(self):
+        make_key()
+        pathlib.Path('peer.toml').write_text(daemon_toml([joint_toml()]))
+        return ctl('can-check', 'peer.toml', timeout_s=30)
 
     def test_is_refused_when_it_answers_about_another_object(self):
         self.tell('wrong')
