@@ -18,7 +18,7 @@ constexpr int kQuarters = 4;  // of a decade of the torque's weight
 constexpr double kSoftestWeight = 1e-5;
 constexpr int kNarrowings = 2;
 // Of the motor's inertia, to both sides: data sheets and identification are mostly within the first.
-constexpr std::array kMotorShares{0.05, 0.02, 0.01};
+constexpr std::array kMotorShares{0.05, 0.02};
 constexpr int kSofterSteps = 8;  // of half a decade
 // Of a torque that acts two periods late the velocity of two readings is two and a half periods old. Of the family for links of 0.05 to 0.3
 // kg m2 behind a size 17 gear 1.5 periods are too few without damping, 2.5 too many for the stiffer gains.
