@@ -16,6 +16,8 @@ namespace {
 // Stiffness, link inertia, damping, viscous friction, motor inertia.
 constexpr std::size_t kDirections = 5;
 constexpr std::size_t kCorners = std::size_t{1} << kDirections;
+// More than the first checker has: what is rounded here, by up to 1 %, then decides nothing.
+constexpr int kMostExactHalvings = kMostHalvings + 4;
 
 using Joint = std::array<double, kDirections>;
 using Part = std::array<BoxRange, kDirections>;
@@ -261,7 +263,7 @@ void prove_cell(const GainTable& table, const BoxCell& cell, ExactReport& report
   CellProof(table, cell, report)
       .prove({cell.stiffness_Nm_rad, cell.link_inertia_kgm2, table.box.damping_Nms_rad, viscous_Nms_rad,
               table.box.rigid() ? BoxRange{whole_kgm2, whole_kgm2} : table.box.motor_inertia_kgm2},
-             kMostHalvings);
+             kMostExactHalvings);
 }
 
 }  // namespace strainwave

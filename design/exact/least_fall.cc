@@ -9,7 +9,7 @@ namespace strainwave {
 
 namespace {
 
-// Of a binade. With powers of two csf-17-50-delays.json is not proved at its lightest link: strainwave-design verify --exact.
+// Of a binade. Powers of two lose proofs near the edge: strainwave-design verify --exact.
 constexpr double kParts = 64.0;
 
 Eigen::MatrixXd approximate(const RationalMatrix& a) {
