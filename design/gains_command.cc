@@ -106,19 +106,14 @@ void take_friction(const GainsOptions& options, RequestedJoint& joint) {
   std::printf("--friction %s\n", friction.origin.c_str());
 }
 
-// Not given at the joint: says where it is from. Throws InputError that asks for it.
-double usual_motor_inertia_kgm2(const GainsOptions& options) {
+// Says where it is from unless it is given at the joint. Throws InputError that asks for it.
+BoxRange motor_inertia_kgm2(const GainsOptions& options) {
+  if (const auto given = given_motor_inertia(options.spring, "gains")) return *given;
   const Gear& gear = gear_of(options);
   const std::string model = options.gear.empty() ? usual_model(gear) : model_of(options);
   const MotorInertia inertia = usual_motor_inertia("gains", &gear, model, options.rotor_inertia_kgm2);
   std::printf("--motor-inertia_kgm2 %g, %s\n", inertia.at_joint_kgm2, inertia.origin.c_str());
-  return inertia.at_joint_kgm2;
-}
-
-BoxRange motor_inertia_range(const GainsOptions& options) {
-  if (const auto given = given_motor_inertia(options.spring, "gains")) return *given;
-  const double inertia_kgm2 = usual_motor_inertia_kgm2(options);
-  return {inertia_kgm2, inertia_kgm2};
+  return {inertia.at_joint_kgm2, inertia.at_joint_kgm2};
 }
 
 // Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
@@ -126,7 +121,7 @@ RequestedJoint read_joint(const GainsOptions& options) {
   RequestedJoint joint;
   take_friction(options, joint);
   if (options.spring.given())
-    joint.spring = spring_request(options.spring, "gains", motor_inertia_range(options));
+    joint.spring = spring_request(options.spring, "gains", motor_inertia_kgm2(options));
   if (options.inertia_kgm2) {
     joint.inertia_kgm2 = *options.inertia_kgm2;
   } else if (joint.spring) {
@@ -134,7 +129,7 @@ RequestedJoint read_joint(const GainsOptions& options) {
     joint.inertia_kgm2 = 0.5 * (motor.from + motor.to) + joint.spring->link_inertia_kgm2.to;
     std::printf("--inertia_kgm2 %g, motor and heaviest link\n", joint.inertia_kgm2);
   } else {
-    joint.inertia_kgm2 = usual_motor_inertia_kgm2(options);
+    joint.inertia_kgm2 = motor_inertia_kgm2(options).from;
   }
   return joint;
 }

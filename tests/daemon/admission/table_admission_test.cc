@@ -239,10 +239,8 @@ TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
 }
 
 TEST_F(TableAdmissionOnASpring, AcceptsAMotorThatIsFivePerCentOffItsDataSheet) {
-  for (const double motor_kgm2 : {0.0846, 0.0934}) {
-    const TableVerdict verdict = judge(0.1, 1, motor_kgm2);
-    EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
-  }
+  for (const double motor_kgm2 : {0.0846, 0.0934})
+    EXPECT_EQ(judge(0.1, 1, motor_kgm2).reason, Reason::kAccepted) << motor_kgm2;
 }
 
 TEST_F(TableAdmissionOnASpring, AcceptsBothDelaysWithATableThatHasALead) {
