@@ -16,8 +16,7 @@ constexpr double kAtPlaceCounts = 1.01;
 constexpr int kSettlingPeriods = 2;
 // Of the load that shows: longer than a count's torque lasts.
 constexpr double kWeigh_s = 0.01;
-// So long a joint that was pushed stands before it is brought to rest; within so many counts it stands.
-constexpr double kStands_s = 0.02;
+// Within so many counts a joint that was pushed stands.
 constexpr double kStandsCounts = 3.0;
 // Smaller swings of the feedback are no oscillation: a share of the torque limit, and what a count makes of the law.
 constexpr double kSwingShare = 0.2;
@@ -130,7 +129,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (yields()) {
     reading_.step(measurement, plan_.now().position_rad, plan_.now().position_rad);
     yielding_.see(reading_.position_rad(), count_of(config_), elapsed_periods);
-    if (yielding_.periods * config_.period_s >= kStands_s) hold_again();
+    if (yielding_.periods * config_.period_s >= RestCorrections::kStands_s) hold_again();
   } else {
     advance_plan(measurement);
     reading_.step(measurement, plan_.place_before_rad(0), plan_.place_before_rad(measurement.late_periods));

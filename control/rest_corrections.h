@@ -11,9 +11,12 @@ namespace strainwave {
 
 class RestCorrections {
  public:
+  /// A motor that is seen to stand for so long does: longer than a count flickers, and than most links swing once behind it (20 to 80 Hz).
+  static constexpr double kStands_s = 0.02;
+
   /// `period_s` > 0; `count_rad` > 0: what the reading cannot tell.
   RestCorrections(double period_s, double count_rad) noexcept
-      : off_limit_(static_cast<int>(std::lround(kOff_s / period_s))), count_rad_(count_rad) {}
+      : off_limit_(static_cast<int>(std::lround(kStands_s / period_s))), count_rad_(count_rad) {}
 
   /// A new order.
   void reset() noexcept { *this = RestCorrections(off_limit_, count_rad_); }
@@ -44,8 +47,6 @@ class RestCorrections {
   static constexpr double kOffCounts = 1.2;
   /// A motor that friction holds this far off does not exist: it is pushed, and the law and the learned load bring it back.
   static constexpr double kPushedCounts = 250.0;
-  /// Longer than a count flickers, and than the link swings once behind a motor that stands (20 to 80 Hz).
-  static constexpr double kOff_s = 0.02;
   /// At one count in so many periods a motor stops in less than a count.
   static constexpr int kStillPeriods = 3;
   /// A correction that brings nothing adds this share of the friction; half of it from when one has gone too far.

@@ -8,19 +8,12 @@
 
 namespace strainwave {
 
-namespace {
-// exp(-40) is 4e-18: past it the Stribeck term is below the
-// rounding of Fc and its exponential is not worth its time.
-constexpr double kNegligibleExponent = 40.0;
-}  // namespace
-
 double stribeck_friction_Nm(const FrictionParameters& friction, const StribeckShape& shape,
                             double velocity_rad_s) noexcept {
   const double speed = std::abs(velocity_rad_s);
   const double ratio = speed / shape.velocity_rad_s;
   const double exponent = shape.exponent == 2.0 ? ratio * ratio : std::pow(ratio, shape.exponent);
-  const double stribeck =
-      exponent < kNegligibleExponent ? (friction.static_Nm - friction.coulomb_Nm) * std::exp(-exponent) : 0.0;
+  const double stribeck = (friction.static_Nm - friction.coulomb_Nm) * std::exp(-exponent);
   return (stribeck + friction.coulomb_Nm + friction.viscous_Nms_rad * speed) * sign(velocity_rad_s);
 }
 

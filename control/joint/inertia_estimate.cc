@@ -26,24 +26,22 @@ constexpr double kFrictionDeviation = 0.3;
 // Four windows, as they count then.
 constexpr double kLeastWindows = 3.8;
 
-// Of means and windows. Faster loops than 0.1 ms have shorter ones.
+// Of means and windows. Faster loops than this have shorter ones.
 constexpr double kSpan_s = 0.004;
 constexpr double kWindow_s = 0.02;
-constexpr int kLongestSpan = 40;
-constexpr int kLongestWindow = 200;
+constexpr double kFastest_s = 1e-4;
 
-int periods_of(double duration_s, double period_s, int least, int most) noexcept {
-  return static_cast<int>(
-      std::clamp(std::round(duration_s / period_s), static_cast<double>(least), static_cast<double>(most)));
+int periods_of(double duration_s, double period_s, int least) noexcept {
+  return std::max(least, static_cast<int>(std::lround(duration_s / std::max(period_s, kFastest_s))));
 }
 
 }  // namespace
 
 InertiaEstimate::InertiaEstimate(const InertiaEstimateConfig& config) noexcept
     : config_(config),
-      span_(periods_of(kSpan_s, config.period_s, 2, kLongestSpan)),
-      window_(periods_of(kWindow_s, config.period_s, 5, kLongestWindow)) {
-  static_assert(kRoom > static_cast<unsigned>(kLongestSpan + kLongestWindow + kMaxControlDelay));
+      span_(periods_of(kSpan_s, config.period_s, 2)),
+      window_(periods_of(kWindow_s, config.period_s, 5)) {
+  static_assert(kRoom > (kSpan_s + kWindow_s) / kFastest_s + kMaxControlDelay);
 }
 
 const InertiaEstimate::Sums& InertiaEstimate::sums(int periods_ago) const noexcept {

@@ -14,8 +14,6 @@ namespace {
 
 // Knots are computed: one that is at a limit is not beyond it for its last bits.
 constexpr double kRounding = 1.0 + kAtBound;
-// Of a position, a velocity, and an instant as a share of its segment.
-constexpr double kClose = 1e-9;
 
 /// One cubic.
 struct Segment {
@@ -44,7 +42,7 @@ struct Instants {
   std::array<double, 2> since_s{};
   std::size_t count = 0;
   void add_inside(double candidate_s, double duration_s) noexcept {
-    if (candidate_s > kClose * duration_s && candidate_s < (1.0 - kClose) * duration_s)
+    if (candidate_s > kAtBound * duration_s && candidate_s < (1.0 - kAtBound) * duration_s)
       since_s[count++] = candidate_s;
   }
 };
@@ -73,7 +71,8 @@ class Judge {
 
   Found position(double position_rad, double time_s) const {
     const PositionRange& range = limits_.range;
-    if (position_rad >= range.min_rad - kClose && position_rad <= range.max_rad + kClose) return std::nullopt;
+    if (position_rad >= range.min_rad - kAtBound && position_rad <= range.max_rad + kAtBound)
+      return std::nullopt;
     return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad,
                       position_rad < range.min_rad ? range.min_rad : range.max_rad};
   }
@@ -113,7 +112,7 @@ Found judge_ends(const Segment& segment, const Judge& judge) {
                              begins_by < 0.0, segment.from.time_s))
     return found;
   const PathPoint end = segment.at(segment.duration_s);
-  const bool at_rest = std::abs(end.velocity_rad_s) <= kClose;
+  const bool at_rest = std::abs(end.velocity_rad_s) <= kAtBound;
   const double ends_by = end.velocity_rad_s * end.acceleration_rad_s2;
   return judge.acceleration(end.acceleration_rad_s2, !at_rest && ends_by > 0.0, at_rest || ends_by < 0.0,
                             segment.from.time_s + segment.duration_s);
@@ -149,7 +148,7 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s
   if (here.time_s > kLongestPath_s)
     return PathDefect{PathDefect::Kind::kDuration, knot, here.time_s, here.time_s, kLongestPath_s};
   const bool end = knot == 0 || knot + 1 == path.count;
-  if (end && std::abs(here.velocity_rad_s) > kClose)
+  if (end && std::abs(here.velocity_rad_s) > kAtBound)
     return PathDefect{PathDefect::Kind::kNotAtRest, knot, here.time_s, here.velocity_rad_s, 0.0};
   return std::nullopt;
 }

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/printable.h"
+
 namespace strainwave {
 
 namespace {
 
-// Slower than this share of its limit a joint does not matter to the rate.
-constexpr double kStands = 1e-9;
-
 RateRoom room_at(const PathPoint& point, double rate, const MotionLimits& limits) noexcept {
   const double speed_rad_s = std::abs(point.velocity_rad_s);
-  if (speed_rad_s <= kStands * limits.velocity_rad_s) return PathClock::kMostRoom;
+  // So slow a joint does not matter to the rate.
+  if (speed_rad_s <= kAtBound * limits.velocity_rad_s) return PathClock::kMostRoom;
   const double along_rad_s2 =
       std::copysign(1.0, point.velocity_rad_s) * point.acceleration_rad_s2 * rate * rate;
   return {std::max(0.0, (limits.deceleration_rad_s2 + along_rad_s2) / speed_rad_s),
