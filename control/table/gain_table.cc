@@ -5,6 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/printable.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/table/table_inspector.h"
 
@@ -14,40 +15,26 @@ static_assert(std::is_trivially_copyable_v<GainTable>, "tables are exchanged as 
 
 namespace {
 
-// Beyond these no joint of this kind exists; they catch wrong units and hostile tables before any arithmetic.
-constexpr double kMaxInertia_kgm2 = 1e4;
-constexpr double kMaxGearRatio = 1e4;
-constexpr double kMinPeriod_s = 1e-5;
-constexpr double kMaxPeriod_s = 1.0;
-constexpr double kMaxTorque_Nm = 1e5;
-constexpr double kMaxViscous_Nms_rad = 1e5;
+// Of every number, in SI: what is beyond is no joint's, and no arithmetic with what is within overflows.
+constexpr double kLeast = 1e-9;
+constexpr double kMost = 1e15;
 // Of the torque limit: a joint that needs more to break away has less left for motion than friction takes; the coldest rule of the
 // catalogue's joint needs 0.17.
 constexpr double kMaxStaticShare = 0.5;
-// Slower than any joint can be told to move: an encoder of a million counts passes one in six seconds.
-constexpr double kMinVelocityWidth_rad_s = 1e-6;
-constexpr double kMaxVelocity_rad_s = 1e6;
-constexpr double kMaxGain = 1e9;
-constexpr double kMaxWeight = 1e12;
-constexpr double kMaxLyapunov = 1e15;
-constexpr double kMinBoxValue = 1e-9;
-constexpr double kMaxStiffness_Nm_rad = 1e9;
-constexpr double kMinTemperature_C = -273.15;
-constexpr double kMaxTemperature_C = 1000.0;
-constexpr double kIdentityTolerance = 1e-9;
+constexpr double kAbsoluteZero_C = -273.15;
 
 void inspect_plant(TableInspector& inspector, const PlantIdentity& plant) {
   inspector.text("plant.joint_model", plant.joint_model, false);
-  inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
-  inspector.positive("plant.gear_ratio", plant.gear_ratio, kMaxGearRatio);
-  inspector.in_range("plant.period_s", plant.period_s, kMinPeriod_s, kMaxPeriod_s);
+  inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMost);
+  inspector.positive("plant.gear_ratio", plant.gear_ratio, kMost);
+  inspector.in_range("plant.period_s", plant.period_s, kLeast, kMost);
   inspector.text("plant.gear", plant.gear, true);
   if (!inspector.ok() || plant.gear.view().empty()) return;
   const Gear* gear = find_gear(plant.gear.view());
   const std::string said = "plant.gear = " + std::string(plant.gear.view());
   inspector.require(gear != nullptr, said + ": must be empty or one of " + gear_names());
   inspector.require(gear == nullptr || is_same_number(plant.gear_ratio, gear->ratio),
-                    said + ": must be a gear of plant.gear_ratio = " + table_number(plant.gear_ratio));
+                    said + ": must be a gear of plant.gear_ratio = " + number_text(plant.gear_ratio));
 }
 
 void inspect_range(TableInspector& inspector, const std::string& key, const BoxRange& range, double least,
@@ -67,15 +54,13 @@ void inspect_cell(TableInspector& inspector, const CertifiedBox& box, const BoxC
     inspector.require(is_zero(cell.stiffness_Nm_rad) && is_zero(cell.link_inertia_kgm2),
                       key + ": of a rigid joint, must say nothing of a spring");
   } else {
-    inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kMinBoxValue,
-                  kMaxStiffness_Nm_rad);
-    inspect_range(inspector, key + "link_inertia_kgm2", cell.link_inertia_kgm2, kMinBoxValue,
-                  kMaxInertia_kgm2);
+    inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kLeast, kMost);
+    inspect_range(inspector, key + "link_inertia_kgm2", cell.link_inertia_kgm2, kLeast, kMost);
   }
   if (!inspector.ok()) return;
   for (std::size_t i = 0; i < kCellEntries; ++i) {
     const std::string entry = key + "P[" + std::to_string(i) + "]";
-    inspector.in_range(entry, cell.P[i], -kMaxLyapunov, kMaxLyapunov);
+    inspector.in_range(entry, cell.P[i], -kMost, kMost);
     inspector.require(i < box.entries_of(cell) || cell.P[i] == 0.0, entry + ": must be 0 beyond the matrix");
   }
 }
@@ -113,12 +98,10 @@ void inspect_box(TableInspector& inspector, const GainTable& table) {
     inspector.require(box.cell_count > 0, "box.cell_count = 0: must be at least 1 unless the joint is rigid");
     inspector.require(!table.plant.gear.view().empty(),
                       "plant.gear: must be named where the joint has a spring");
-    inspect_range(inspector, "box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue,
-                  kMaxInertia_kgm2);
-    inspect_range(inspector, "box.link_inertia_kgm2", box.link_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
-    inspect_range(inspector, "box.stiffness_Nm_rad", box.stiffness_Nm_rad, kMinBoxValue,
-                  kMaxStiffness_Nm_rad);
-    inspect_range(inspector, "box.damping_Nms_rad", box.damping_Nms_rad, 0.0, kMaxViscous_Nms_rad);
+    inspect_range(inspector, "box.motor_inertia_kgm2", box.motor_inertia_kgm2, kLeast, kMost);
+    inspect_range(inspector, "box.link_inertia_kgm2", box.link_inertia_kgm2, kLeast, kMost);
+    inspect_range(inspector, "box.stiffness_Nm_rad", box.stiffness_Nm_rad, kLeast, kMost);
+    inspect_range(inspector, "box.damping_Nms_rad", box.damping_Nms_rad, 0.0, kMost);
   }
   inspect_cells(inspector, box);
 }
@@ -128,40 +111,36 @@ void inspect_rule_friction(TableInspector& inspector, const FrictionParameters& 
                            double torque_limit_Nm, const std::string& key) {
   const double most_Nm = kMaxStaticShare * torque_limit_Nm;
   inspector.require(friction.static_Nm >= 0.0 && friction.static_Nm <= most_Nm,
-                    key + "static_Nm = " + table_number(friction.static_Nm) + ": must be from 0 to " +
-                        table_number(most_Nm) +
+                    key + "static_Nm = " + number_text(friction.static_Nm) + ": must be from 0 to " +
+                        number_text(most_Nm) +
                         ", half of torque_limit_Nm, or friction takes more than it leaves");
   inspector.in_range(key + "coulomb_Nm", friction.coulomb_Nm, 0.0, friction.static_Nm);
-  inspector.in_range(key + "viscous_Nms_rad", friction.viscous_Nms_rad, 0.0, kMaxViscous_Nms_rad);
+  inspector.in_range(key + "viscous_Nms_rad", friction.viscous_Nms_rad, 0.0, kMost);
 }
 
 void inspect_velocity_memberships(TableInspector& inspector, const VelocityMemberships& velocity) {
   const std::string key = "friction.velocity.";
-  inspector.in_range(key + "zero_center_rad_s", velocity.zero_center_rad_s, 0.0, kMaxVelocity_rad_s);
-  inspector.in_range(key + "zero_width_rad_s", velocity.zero_width_rad_s, kMinVelocityWidth_rad_s,
-                     kMaxVelocity_rad_s);
-  inspector.in_range(key + "high_center_rad_s", velocity.high_center_rad_s, 0.0, kMaxVelocity_rad_s);
-  inspector.in_range(key + "high_width_rad_s", velocity.high_width_rad_s, kMinVelocityWidth_rad_s,
-                     kMaxVelocity_rad_s);
+  inspector.in_range(key + "zero_center_rad_s", velocity.zero_center_rad_s, 0.0, kMost);
+  inspector.in_range(key + "zero_width_rad_s", velocity.zero_width_rad_s, kLeast, kMost);
+  inspector.in_range(key + "high_center_rad_s", velocity.high_center_rad_s, 0.0, kMost);
+  inspector.in_range(key + "high_width_rad_s", velocity.high_width_rad_s, kLeast, kMost);
 }
 
 void inspect_friction(TableInspector& inspector, const FuzzyFriction& friction, double torque_limit_Nm) {
   inspector.in_range("friction.rule_count", friction.rule_count, 1, kMaxTemperatureRules);
-  inspector.in_range("friction.temperature_min_C", friction.temperature_min_C, kMinTemperature_C,
-                     kMaxTemperature_C);
-  inspector.in_range("friction.temperature_max_C", friction.temperature_max_C, kMinTemperature_C,
-                     kMaxTemperature_C);
+  inspector.in_range("friction.temperature_min_C", friction.temperature_min_C, kAbsoluteZero_C, kMost);
+  inspector.in_range("friction.temperature_max_C", friction.temperature_max_C, kAbsoluteZero_C, kMost);
   inspector.require(friction.temperature_min_C < friction.temperature_max_C,
                     "friction.temperature_max_C: must be above friction.temperature_min_C");
   inspect_velocity_memberships(inspector, friction.velocity);
   for (int i = 0; inspector.ok() && i < friction.rule_count; ++i) {
     const TemperatureRule& rule = friction.rules[static_cast<std::size_t>(i)];
     const std::string key = "friction.rules[" + std::to_string(i) + "].";
-    inspector.in_range(key + "center_C", rule.center_C, kMinTemperature_C, kMaxTemperature_C);
-    inspector.in_range(key + "width_C", rule.width_C, 1e-3, 1e4);
+    inspector.in_range(key + "center_C", rule.center_C, kAbsoluteZero_C, kMost);
+    inspector.in_range(key + "width_C", rule.width_C, kLeast, kMost);
     inspect_rule_friction(inspector, rule.friction, torque_limit_Nm, key);
     const bool ascending = i == 0 || friction.rules[static_cast<std::size_t>(i - 1)].center_C < rule.center_C;
-    inspector.require(ascending, key + "center_C = " + table_number(rule.center_C) + ": centres must ascend");
+    inspector.require(ascending, key + "center_C = " + number_text(rule.center_C) + ": centres must ascend");
   }
 }
 
@@ -173,13 +152,13 @@ void inspect_rule(TableInspector& inspector, const FeedbackGains& gains, int rul
   };
   for (Eigen::Index a = 0; inspector.ok() && a < kMaxStates; ++a) {
     const bool unused = a == 0 && !gains.has_integrator;
-    inspector.in_range(name("F", a), F(a), -kMaxGain, kMaxGain);
+    inspector.in_range(name("F", a), F(a), -kMost, kMost);
     inspector.require(!unused || F(a) == 0.0, name("F", a) + ": must be 0 without an integrator");
     for (Eigen::Index b = 0; b < kMaxStates; ++b) {
       std::string entry = name("P", a);
       entry += "[" + std::to_string(b) + "]";
-      inspector.in_range(entry, P(a, b), -kMaxLyapunov, kMaxLyapunov);
-      inspector.require(P(a, b) == P(b, a), entry + " = " + table_number(P(a, b)) + ": P must be symmetric");
+      inspector.in_range(entry, P(a, b), -kMost, kMost);
+      inspector.require(P(a, b) == P(b, a), entry + " = " + number_text(P(a, b)) + ": P must be symmetric");
       inspector.require(!unused || P(a, b) == 0.0, entry + ": must be 0 without an integrator");
     }
   }
@@ -197,14 +176,14 @@ void inspect_gains(TableInspector& inspector, const FeedbackGains& gains, int pl
       gains.has_integrator ? (gains.scheduled() ? "C4" : "C3") : (gains.scheduled() ? "C2" : "C1");
   inspector.require(gains.controller == FixedString<8>(expected),
                     key + ".controller: must be " + expected + " for these states and this number of rules");
-  inspector.in_range(key + ".weights.integral", gains.weights.integral, 0.0, kMaxWeight);
+  inspector.in_range(key + ".weights.integral", gains.weights.integral, 0.0, kMost);
   inspector.require((gains.weights.integral > 0.0) == (gains.has_integrator == 1),
                     key + ".weights.integral: must be above 0 with an integrator and 0 without");
-  inspector.positive(key + ".weights.position", gains.weights.position, kMaxWeight);
-  inspector.in_range(key + ".weights.velocity", gains.weights.velocity, 0.0, kMaxWeight);
-  inspector.positive(key + ".weights.torque", gains.weights.torque, kMaxWeight);
+  inspector.positive(key + ".weights.position", gains.weights.position, kMost);
+  inspector.in_range(key + ".weights.velocity", gains.weights.velocity, 0.0, kMost);
+  inspector.positive(key + ".weights.torque", gains.weights.torque, kMost);
   inspector.positive(key + ".decay_rate", gains.decay_rate, 1.0);
-  inspector.in_range(key + ".cost_bound", gains.cost_bound, 0.0, kMaxLyapunov);
+  inspector.in_range(key + ".cost_bound", gains.cost_bound, 0.0, kMost);
   for (int j = 0; inspector.ok() && j < gains.rule_count; ++j) inspect_rule(inspector, gains, j, key);
   for (std::size_t j = static_cast<std::size_t>(gains.rule_count); inspector.ok() && j < kMaxRules; ++j) {
     const bool zero =
@@ -223,7 +202,7 @@ std::optional<std::string> find_defect(const GainTable& table) {
   inspector.text("name", table.name, false);
   inspect_plant(inspector, table.plant);
   inspect_box(inspector, table);
-  inspector.positive("torque_limit_Nm", table.torque_limit_Nm, kMaxTorque_Nm);
+  inspector.positive("torque_limit_Nm", table.torque_limit_Nm, kMost);
   inspect_friction(inspector, table.friction, table.torque_limit_Nm);
   const int plant_rules = 1 + table.friction.rule_count;
   inspect_gains(inspector, table.primary, plant_rules, "primary");
@@ -243,14 +222,14 @@ std::optional<std::string> find_defect(const GainTable& table) {
 }
 
 bool is_same_number(double a, double b) noexcept {
-  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
+  return std::abs(a - b) <= kAtBound * std::abs(b);
 }
 
 std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected,
                                                   InertiaCheck inertia) {
   const PlantIdentity& plant = table.plant;
   const auto differs = [](const std::string& key, double value, double wanted) {
-    return "plant." + key + " = " + table_number(value) + ": this joint has " + table_number(wanted);
+    return "plant." + key + " = " + number_text(value) + ": this joint has " + number_text(wanted);
   };
   if (!(plant.joint_model == expected.joint_model)) {
     return "plant.joint_model = " + std::string(plant.joint_model.view()) + ": this joint is a " +

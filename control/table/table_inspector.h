@@ -2,22 +2,14 @@
 // Checks of the fields of a gain table, with words for the first defect. Not real-time.
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/fixed_string.h"
+#include "base/printable.h"
 
 namespace strainwave {
-
-/// Ten digits.
-inline std::string table_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.10g", value);
-  return text.data();
-}
 
 /// Collects the first defect only: every check after it is skipped.
 class TableInspector {
@@ -25,13 +17,13 @@ class TableInspector {
   /// low <= value <= high, not NaN.
   void in_range(const std::string& key, double value, double low, double high) {
     if (found_ || (value >= low && value <= high)) return;
-    found_ = key + " = " + table_number(value) + ": must be from " + table_number(low) + " to " +
-             table_number(high);
+    found_ =
+        key + " = " + number_text(value) + ": must be from " + number_text(low) + " to " + number_text(high);
   }
   /// 0 < value <= high.
   void positive(const std::string& key, double value, double high) {
     if (found_ || (value > 0.0 && value <= high)) return;
-    found_ = key + " = " + table_number(value) + ": must be above 0 and at most " + table_number(high);
+    found_ = key + " = " + number_text(value) + ": must be above 0 and at most " + number_text(high);
   }
   void require(bool condition, const std::string& message) {
     if (!found_ && !condition) found_ = message;

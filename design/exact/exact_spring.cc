@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/printable.h"
 #include "control/joint/link_velocity.h"
-#include "control/table/table_inspector.h"
 #include "design/exact/least_fall.h"
 
 namespace strainwave {
@@ -30,10 +30,10 @@ Joint corner_of(const Part& part, std::size_t corner) {
 }
 
 std::string text_of(const Joint& joint) {
-  if (joint[1] == 0.0) return "viscous friction " + table_number(joint[3]) + " N m s/rad";
-  return "stiffness " + table_number(joint[0]) + " N m/rad, link " + table_number(joint[1]) +
-         " kg m2, damping " + table_number(joint[2]) + " N m s/rad, viscous friction " +
-         table_number(joint[3]) + " N m s/rad, motor " + table_number(joint[4]) + " kg m2";
+  if (joint[1] == 0.0) return "viscous friction " + number_text(joint[3]) + " N m s/rad";
+  return "stiffness " + number_text(joint[0]) + " N m/rad, link " + number_text(joint[1]) +
+         " kg m2, damping " + number_text(joint[2]) + " N m s/rad, viscous friction " +
+         number_text(joint[3]) + " N m s/rad, motor " + number_text(joint[4]) + " kg m2";
 }
 
 RationalMatrix unit_row(std::size_t size, std::size_t place) {
