@@ -13,8 +13,6 @@ namespace {
 
 // A mean over a span must have moved by so many counts: its way is certain then, and its velocity to a tenth.
 constexpr double kLeastCounts = 6.0;
-// Where positions are exact.
-constexpr double kLeastTravel_rad = 1e-6;
 // Of what a later window counts, each one before it: half a second of motion.
 constexpr double kKept = 0.97;
 // What a window is off by at least, in static friction over its length; friction that is a share of the torque, ripple and swings.
@@ -75,8 +73,8 @@ void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexce
   if (samples_ <= std::max(span_, config_.delay_periods)) return;
 
   const double travel_rad = next.position_rad - sums(span_).position_rad;
-  const double least_rad = std::max(kLeastCounts * config_.encoder_resolution_rad, kLeastTravel_rad);
-  const int way = std::abs(travel_rad) < least_rad ? 0 : static_cast<int>(sign(travel_rad));
+  const int way =
+      std::abs(travel_rad) < kLeastCounts * config_.count_rad ? 0 : static_cast<int>(sign(travel_rad));
   next.friction_Nms += way * model.friction_Nm(travel_rad / (span_ * config_.period_s)) * config_.period_s;
   moving_ = way == 0 || way != way_ ? 0 : moving_ + 1;
   way_ = way;

@@ -20,9 +20,9 @@
 namespace strainwave {
 
 struct InertiaEstimateConfig {
-  double period_s = 0.001;              ///< > 0
-  double encoder_resolution_rad = 0.0;  ///< >= 0
-  int delay_periods = 0;                ///< between a torque's command and its effect, 0..kMaxControlDelay
+  double period_s = 0.001;  ///< > 0
+  double count_rad = 1e-6;  ///< > 0: what an encoder cannot tell
+  int delay_periods = 0;    ///< between a torque's command and its effect, 0..kMaxControlDelay
 };
 
 class InertiaEstimate {

@@ -21,8 +21,7 @@ constexpr double kCertainDeviations = 3.0;
 JointLaw::JointLaw(const JointLoopConfig& config)
     : gravity_(config.controller.gravity),
       controller_(config.controller),
-      inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
-                config.controller.delay_periods}),
+      inertia_({config.controller.period_s, count_of(config.controller), config.controller.delay_periods}),
       held_{config.initial_load_Nm, {}},
       closes_loop_(config.controller.drive_closes_loop()) {}
 
