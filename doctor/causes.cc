@@ -92,12 +92,14 @@ const std::vector<Cause>& causes() {
       {"no real time",
        "grant real time: see docs/installation.md; keep other loads off the processor",
        {},
-       {kNoRealTime, kOverruns}},
+       {kLoopFault}},
       {"bus overloaded",
        "lower the bus load: fewer messages, a higher bit rate; check with strainwavectl can-check",
-       {},
-       {kReadingsMissed, kPositionsLate, kBusFault}},
-      // By one period, and every one of them.
+       {{kPositionsLate, 1.0}},
+       {kReadingsMissed, kBusFault},
+       0.0,
+       0.5},
+      // By one period, and every one of them: of a bus that is full some come in time.
       {"late drive",
        "let the drive answer at once, or raise delay_periods",
        {{kDelay, 1.0}, {kPositionsLate, 1.0}},

@@ -13,13 +13,13 @@
 namespace strainwave {
 
 enum class Feature : std::size_t {
-  kReversed,           ///< 1: torque accelerates the joint against its sign
-  kInertia,            ///< ln of measured over configured
-  kCoulomb,            ///< likewise, of friction at slow speed
-  kViscous,            ///< likewise, of friction's slope over speed
-  kStiffness,          ///< likewise
-  kDelay,              ///< measured less configured, periods
-  kLoad,               ///< what pushes besides the configured gravity, N.m
+  kReversed,   ///< 1: torque accelerates the joint against its sign
+  kInertia,    ///< ln of measured over configured
+  kCoulomb,    ///< likewise, of friction at slow speed
+  kViscous,    ///< likewise, of friction's slope over speed
+  kStiffness,  ///< likewise
+  kDelay,      ///< measured less configured, periods
+  kLoad,       ///< what pushes besides the configured gravity, N.m
   kLinkRatio,          ///< ln of the link's motion over the motor's, slow motion
   kLinkRatioFast,      ///< the same of fast motion, less that of slow motion
   kLinkJumps,          ///< turns of link against motor while the joint accelerates, rad
@@ -32,8 +32,7 @@ enum class Feature : std::size_t {
   kBusFault,           ///< 1: the bus failed
   kReadingsMissed,     ///< share of cycles
   kPositionsLate,      ///< share of cycles
-  kOverruns,           ///< share of periods left out
-  kNoRealTime,         ///< 1: the system refused it
+  kLoopFault,          ///< 1: the loop was so late that the daemon faulted the joint
   kClockRate,          ///< sender's clock against the loop's, share
   kClockJumps          ///< sudden steps of the sender's clock, s
 };

@@ -19,12 +19,13 @@ constexpr double kInertiaTolerance = 0.08;
 constexpr double kFrictionTolerance = 0.13;
 constexpr double kViscousTolerance = 0.15;
 constexpr double kViscousFit_Nms_rad = 0.08;  // by which the rules of tables miss warm friction's slope
-constexpr double kStiffnessTolerance = 0.15;
+constexpr double kStiffnessTolerance = 0.12;
 constexpr double kDelayTolerance_periods = 0.2;
 constexpr double kLoadShare = 0.015;  // of the torque limit
 // What is known worse than by this share, or at this many deviations, is not known.
 constexpr double kKnownShare = 0.25;
 constexpr double kSure = 4.0;
+constexpr double kInertiaKnownShare = 0.1;  // so that an inertia 1.8 times the configured is named
 
 Observation ratio_of(double measured, double told, double deviation, double tolerance, std::string text) {
   const double share = deviation / std::abs(measured);
@@ -58,14 +59,21 @@ void add_friction(const Evidence& evidence, const MotionFit& fit, Features& feat
 
 void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& features) {
   const MotionEstimate& inertia = fit.inertia_kgm2;
-  const bool known = std::abs(inertia.value) > kSure * inertia.deviation;
-  if (!known) return;
-  if (inertia.value < 0.0)
+  if (inertia.value < -kSure * inertia.deviation)
     features[Feature::kReversed] =
         Observation{1.0, 0.1,
                     fmt::format("torque accelerates the joint against its sign: {:.3f} +-{:.3f} kg m2",
                                 inertia.value, inertia.deviation)};
-  if (evidence.told.inertia_kgm2)
+  if (!evidence.told.inertia_kgm2) return;
+  const double share = inertia.deviation / std::min(std::abs(inertia.value), *evidence.told.inertia_kgm2);
+  if (share > kInertiaKnownShare)
+    features.not_judged.emplace_back(
+        evidence.samples.back().fault != 0
+            ? "inertia: the fault ended the motion too early to show it"
+            : fmt::format("inertia: too slow, {:.1f} rad/s2 show it to {:.0f} % only; it needs {:.1f} rad/s2",
+                          fit.acceleration_rad_s2, 100.0 * share,
+                          fit.acceleration_rad_s2 * share / kInertiaKnownShare));
+  else
     features[Feature::kInertia] =
         ratio_of(inertia.value, *evidence.told.inertia_kgm2, inertia.deviation, kInertiaTolerance,
                  fmt::format("inertia is {:.4f} +-{:.4f} kg m2, the configuration says {:.4f}", inertia.value,

@@ -14,12 +14,22 @@ namespace {
 
 constexpr double kNoise_Nm = 0.3;       // of a window: what weighs measurement against prior
 constexpr double kScaleNoise_Nm = 0.6;  // likewise, for the spring
+constexpr double kSplitPrior = 1.0;     // of Jm and Jl over the configured, their difference
 constexpr double kScalePrior = 0.5;     // of ln(scale), standard deviation
 constexpr double kCoarse = 0.1, kFine = 0.02;
+constexpr int kPasses = 2;
+constexpr double kMostError_rad = 5e-4;  // of a gear, each part
 constexpr int kParameters = kMotionColumns;
 using Rows = MotionRows;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 using Solution = Eigen::Matrix<double, kParameters, 1>;
+
+double quantile(const Eigen::VectorXd& values, double share) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size()));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  return *at;
+}
 
 class Regression {
  public:
@@ -31,16 +41,35 @@ class Regression {
     for (int d = 0; d <= 2 * MotionWindows::kMostDelay; ++d) torques_.push_back(windows_.torques(0.5 * d));
     const bool flexible = windows_.flexible();
     // A swing with 2 % of damping is a fiftieth of its frequency wide.
-    use_scales(flexible ? 18 : 0, kCoarse, 1.0);
-    search();
-    reweigh();
-    search();
+    for (int i = 0; i < (flexible ? kPasses : 1); ++i) {
+      use_scales(flexible ? 18 : 0, kCoarse, 1.0);
+      search();
+      reweigh();
+      search();
+      if (flexible) assume_what_is_found();
+    }
     if (flexible) use_scales(5, kFine, scales_[best_scale_]);
     search();
     return result(flexible);
   }
 
  private:
+  void assume_what_is_found() {
+    const Solved solved = solve(best_scale_, best_delay_, inverse_normal(best_scale_));
+    const Solution& found = solved.parameters;
+    AssumedLink link = windows_.assumed();
+    if (found[kLink] <= 0.0) return;
+    for (std::size_t i = 0; i < link.error_rad.size(); ++i) {
+      const double more_rad =
+          found[kError + static_cast<int>(i)] / found[kLink] * MotionWindows::kErrorUnit_rad;
+      link.error_rad[i] = std::clamp(link.error_rad[i] + more_rad, -kMostError_rad, kMostError_rad);
+    }
+    link.bias_Nm = found[kBias];
+    link.sine_Nm = found[kSine];
+    link.cosine_Nm = found[kCosine];
+    windows_.assume(link);
+  }
+
   /// 2 count + 1 scales about `middle`, evenly spaced by ratio.
   void use_scales(int count, double step, double middle) {
     scales_.clear();
@@ -56,7 +85,8 @@ class Regression {
     const double limit_Nm = evidence_.torque_limit_Nm();
     Solution prior;
     const double error = evidence_.told.link ? 3.0 * evidence_.told.link->link_inertia_kgm2 : 1e-6;
-    prior << 1e3, 1e3, 1e3, 1e3, 0.01 * limit_Nm, 0.3 * limit_Nm, 0.3 * limit_Nm, error, error, error, error;
+    prior << 1e3, 1e3, 0.3 * limit_Nm, 0.1 * limit_Nm, 0.01 * limit_Nm, 0.3 * limit_Nm, 0.3 * limit_Nm, error,
+        error, error, error;
     return prior;
   }
 
@@ -70,20 +100,15 @@ class Regression {
     const Solution prior = priors();
     for (int i = 0; i < kParameters; ++i) normal(i, i) += std::pow(kNoise_Nm / prior[i], 2);
     if (evidence_.told.link) {
-      normal(kMotor, kMotor) += weight_of(evidence_.told.link->motor_inertia_kgm2);
-      normal(kLink, kLink) += weight_of(evidence_.told.link->link_inertia_kgm2);
+      Solution split = Solution::Zero();
+      split[kMotor] = 1.0 / evidence_.told.link->motor_inertia_kgm2;
+      split[kLink] = -1.0 / evidence_.told.link->link_inertia_kgm2;
+      normal += std::pow(kNoise_Nm / kSplitPrior, 2) * split * split.transpose();
     }
     return normal.inverse();
   }
-  static double weight_of(double inertia_kgm2) { return std::pow(kNoise_Nm / (0.7 * inertia_kgm2), 2); }
   Solved solve(std::size_t scale, std::size_t delay, const Normal& inverse) const {
-    Solution right = rows_[scale].transpose() * weights_.cwiseProduct(torques_[delay]);
-    if (evidence_.told.link) {
-      const double motor = evidence_.told.link->motor_inertia_kgm2,
-                   link = evidence_.told.link->link_inertia_kgm2;
-      right[kMotor] += weight_of(motor) * motor;
-      right[kLink] += weight_of(link) * link;
-    }
+    const Solution right = rows_[scale].transpose() * weights_.cwiseProduct(torques_[delay]);
     Solved solved{0.0, inverse * right, inverse};
     const Eigen::VectorXd left = torques_[delay] - rows_[scale] * solved.parameters;
     solved.squares = left.cwiseAbs2().dot(weights_);
@@ -111,10 +136,7 @@ class Regression {
   void reweigh() {
     const Solved solved = solve(best_scale_, best_delay_, inverse_normal(best_scale_));
     const Eigen::VectorXd left = (torques_[best_delay_] - rows_[best_scale_] * solved.parameters).cwiseAbs();
-    std::vector<double> sorted(left.begin(), left.end());
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
-    const double bound = 3.0 * std::max(1.4826 * sorted[sorted.size() / 2], 1e-4);
+    const double bound = 3.0 * std::max(1.4826 * quantile(left, 0.5), 1e-4);
     for (Eigen::Index i = 0; i < left.size(); ++i) weights_[i] = std::min(1.0, bound / left[i]);
   }
 
@@ -132,6 +154,7 @@ class Regression {
     const double noise_squares = kOverlap * solved.squares / count;
     MotionFit fit;
     fit.windows = windows_.count();
+    fit.acceleration_rad_s2 = quantile(rows_[best_scale_].col(kMotor).cwiseAbs(), 0.9);
     fit.remainder_Nm = std::sqrt(solved.squares / count);
     const auto estimate = [&](int i) {
       return MotionEstimate{solved.parameters[i], std::sqrt(noise_squares * solved.inverse(i, i))};

@@ -3,9 +3,12 @@
 //
 //   tau(t - d) = Jm q'' + Jl l''(q + e(q)) + Fc sign(q') + Fv q' + b + gs sin q + gc cos q
 //
-// q is the measured position, tau the torque commanded, l the link, which the configured spring times `scale` makes of q and of the
-// gear's kinematic error e. Both sides are weighted by a bump phi(t) of T = 0.03 s and integrated, so that phi takes the derivatives: Int phi q'' = Int phi'' q. Windows in
-// which the joint rests or the torque is at its limit are left out. Jm .. gc are linear; d and scale are found on a grid.
+//   Jl l''     = scale spring(q + e(q) - l) + damping - load(q),    load = b + gs sin q + gc cos q
+//
+// q is the measured position, tau the torque commanded, l the link on the configured spring, e the gear's kinematic error, by whose slope the
+// motor feels more or less of the link's torque. Both sides are weighted by a bump phi(t) and integrated, so that phi takes the derivatives:
+// Int phi q'' = Int phi'' q. Windows in which the joint rests or the torque is lost are left out. Jm .. gc are linear; d and scale are found
+// on a grid. The link's equation is not linear: a second pass writes it about the e and the load of the first.
 #pragma once
 
 #include <optional>
@@ -30,7 +33,8 @@ struct MotionFit {
   double load_Nm = 0.0;  ///< what the position alone explains beyond the configured gravity, largest amount
   double load_at_rad = 0.0;  ///< where
   double load_deviation_Nm = 0.0;
-  double remainder_Nm = 0.0;  ///< standard deviation of what is not explained
+  double acceleration_rad_s2 = 0.0;  ///< of one window in ten or more
+  double remainder_Nm = 0.0;         ///< standard deviation of what is not explained
   int windows = 0;
 };
 

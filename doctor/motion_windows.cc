@@ -8,11 +8,11 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kWindow_s = 0.03;
+// Short enough that a swing of 50 Hz passes, long enough that counts do not count.
+constexpr double kWindow_s = 0.014;
 constexpr int kLeastWindowSamples = 14;
 constexpr double kSlow_rad_s = 0.08;  // above the Stribeck range of the catalogue's joints
 constexpr double kMostSlow = 0.2;     // share of a window
-constexpr double kErrorUnit_rad = 1e-4;
 
 /// phi(s) = (1 - s^2)^4 on -1..1 and its derivatives.
 struct Bump {
@@ -46,7 +46,7 @@ void MotionWindows::find_windows(const Stretch& stretch) {
     for (int i = center - half_; i <= center + half_; ++i) {
       const auto at = static_cast<std::size_t>(i);
       slow += std::abs(stretch.velocity_rad_s[at]) < kSlow_rad_s ? 1 : 0;
-      usable = usable && !stretch.torque_lost[at];
+      usable = usable && !stretch.torque_lost(at);
     }
     if (usable && slow <= kMostSlow * (2 * half_ + 1)) windows_.push_back({&stretch, center});
   }
@@ -97,19 +97,36 @@ MotionRows MotionWindows::rows(double scale) const {
   return rows;
 }
 
-// To the motor's motion, and to each part of a kinematic error of 0.1 mrad.
+// To the motor's motion with the error that is assumed, and to each part of the error by 0.1 mrad more. The gear's slope turns with the error,
+// and so does the share of the link's torque that the motor feels.
 std::array<std::vector<double>, 5> MotionWindows::link_responses(const Stretch& stretch, double scale) const {
   const ConfiguredLink& told = *evidence_.told.link;
-  std::array<std::vector<double>, 5> responses{
-      link_acceleration(stretch.position_rad, stretch.step_s, told, scale), {}, {}, {}, {}};
   const double ratio = evidence_.gear_ratio();
-  for (std::size_t part = 1; part < 5; ++part) {
-    std::vector<double> error_rad;
-    for (const double position_rad : stretch.position_rad) {
-      const double angle = (part <= 2 ? 1.0 : 2.0) * ratio * position_rad;
-      error_rad.push_back(kErrorUnit_rad * (part % 2 == 1 ? std::sin(angle) : std::cos(angle)));
+  std::array<std::vector<double>, 5> drives_rad;
+  std::vector<double> load_Nm, lead;
+  for (const double position_rad : stretch.position_rad) {
+    const double turn_rad = ratio * position_rad;
+    const std::array parts{std::sin(turn_rad), std::cos(turn_rad), std::sin(2.0 * turn_rad),
+                           std::cos(2.0 * turn_rad)};
+    const std::array slopes{parts[1], -parts[0], 2.0 * parts[3], -2.0 * parts[2]};
+    double error_rad = 0.0, slope = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      error_rad += assumed_.error_rad[i] * parts[i];
+      slope += assumed_.error_rad[i] * slopes[i];
     }
-    responses[part] = link_acceleration(error_rad, stretch.step_s, told, scale);
+    drives_rad[0].push_back(position_rad + error_rad);
+    for (std::size_t i = 0; i < 4; ++i)
+      drives_rad[i + 1].push_back(position_rad + error_rad + kErrorUnit_rad * parts[i]);
+    lead.push_back(1.0 + ratio * slope);
+    load_Nm.push_back(assumed_.bias_Nm + assumed_.sine_Nm * std::sin(position_rad) +
+                      assumed_.cosine_Nm * std::cos(position_rad));
+  }
+  std::array<std::vector<double>, 5> responses;
+  for (std::size_t part = 0; part < 5; ++part)
+    responses[part] = link_acceleration(drives_rad[part], load_Nm, stretch.step_s, told, scale);
+  for (std::size_t k = 0; k < lead.size(); ++k) {
+    for (std::size_t part = 1; part < 5; ++part) responses[part][k] -= responses[0][k];
+    responses[0][k] += (lead[k] - 1.0) * (responses[0][k] + load_Nm[k] / told.link_inertia_kgm2);
   }
   return responses;
 }

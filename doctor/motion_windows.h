@@ -15,9 +15,16 @@ enum MotionQuantity { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, 
 inline constexpr int kMotionColumns = 11;
 using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionColumns>;
 
+/// What the link's equation, which is not linear, is written about.
+struct AssumedLink {
+  std::array<double, 4> error_rad{};  ///< of the gear: sine and cosine of the motor's turn, and of twice that
+  double bias_Nm = 0.0, sine_Nm = 0.0, cosine_Nm = 0.0;  ///< load over the position
+};
+
 class MotionWindows {
  public:
-  static constexpr int kMostDelay = 8;  ///< periods
+  static constexpr double kErrorUnit_rad = 1e-4;  ///< of the columns from kError on
+  static constexpr int kMostDelay = 8;            ///< periods
 
   /// `evidence` outlives this.
   explicit MotionWindows(const Evidence& evidence);
@@ -29,6 +36,9 @@ class MotionWindows {
   Eigen::VectorXd torques(double delay_periods) const;
   /// The right side's columns, with the configured spring times `scale`.
   MotionRows rows(double scale) const;
+  /// For the rows from here on.
+  void assume(const AssumedLink& link) { assumed_ = link; }
+  const AssumedLink& assumed() const { return assumed_; }
   /// Positions in the middle of each window.
   std::vector<double> positions_rad() const;
 
@@ -44,6 +54,7 @@ class MotionWindows {
   const Evidence& evidence_;
   std::vector<Stretch> stretches_;
   std::vector<Window> windows_;
+  AssumedLink assumed_;
   double step_s_ = 0.0;
   int half_ = 0;  ///< of a window, samples
 };

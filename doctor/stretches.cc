@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::int64_t kMostBridged = 3;
 constexpr std::size_t kShortest = 40;
+// More than a drive's ripple and its current's noise.
+constexpr double kLostShare = 0.05, kLost_Nm = 0.2;
 
 bool controlled(const DoctorSample& sample) {
   const auto mode = static_cast<Mode>(sample.mode);
@@ -25,7 +27,6 @@ void append(Stretch& stretch, const DoctorSample& sample) {
   stretch.link_rad.push_back(sample.link_position_rad);
   stretch.at_rest.push_back(static_cast<Mode>(sample.mode) == Mode::kHolding &&
                             sample.setpoint_velocity_rad_s == 0.0);
-  stretch.torque_lost.push_back(false);
 }
 
 void bridge(Stretch& stretch, const DoctorSample& from, const DoctorSample& to, std::int64_t stride) {
@@ -38,6 +39,17 @@ void bridge(Stretch& stretch, const DoctorSample& from, const DoctorSample& to, 
   }
 }
 
+// Whatever the delay is, a torque that oscillates is not lost: it comes later.
+double lost_Nm(const Stretch& stretch, std::size_t i) {
+  constexpr std::size_t kLately = 10;
+  if (i < kLately) return 0.0;
+  const double way = std::copysign(1.0, stretch.torque_Nm[i]);
+  double least_Nm = way * stretch.torque_Nm[i];
+  for (std::size_t k = i - kLately; k < i; ++k) least_Nm = std::min(least_Nm, way * stretch.torque_Nm[k]);
+  const double missing_Nm = least_Nm - way * stretch.applied_Nm[i];
+  return least_Nm > 0.0 && missing_Nm > kLostShare * least_Nm + kLost_Nm ? missing_Nm : 0.0;
+}
+
 void finish(Stretch& stretch, std::vector<Stretch>& stretches) {
   const std::size_t count = stretch.position_rad.size();
   if (count >= kShortest) {
@@ -48,14 +60,7 @@ void finish(Stretch& stretch, std::vector<Stretch>& stretches) {
       stretch.velocity_rad_s.push_back((stretch.position_rad[after] - stretch.position_rad[before]) /
                                        (static_cast<double>(after - before) * stretch.step_s));
     }
-    // A drive whose supply sags delivers less than any recent command.
-    constexpr std::size_t kRecent = 6;
-    for (std::size_t i = kRecent; i < count; ++i) {
-      double least = std::abs(stretch.torque_Nm[i]);
-      for (std::size_t k = i - kRecent; k < i; ++k) least = std::min(least, std::abs(stretch.torque_Nm[k]));
-      if (std::abs(stretch.applied_Nm[i]) < least - 0.02 * std::max(least, 1.0))
-        stretch.torque_lost[i] = true;
-    }
+    for (std::size_t i = 0; i < count; ++i) stretch.lost_Nm.push_back(lost_Nm(stretch, i));
     stretches.push_back(std::move(stretch));
   }
   stretch = {};
@@ -87,11 +92,12 @@ std::vector<Stretch> controlled_stretches(const Evidence& evidence) {
   return stretches;
 }
 
-std::vector<double> link_acceleration(const std::vector<double>& drive_rad, double step_s,
+std::vector<double> link_acceleration(const std::vector<double>& drive_rad,
+                                      const std::vector<double>& load_Nm, double step_s,
                                       const ConfiguredLink& told, double scale) {
   std::vector<double> acceleration;
   acceleration.reserve(drive_rad.size());
-  double link_rad = drive_rad.front();
+  double link_rad = drive_rad.front() - told.spring.angle_rad(load_Nm.front() / scale);
   double link_rad_s = 0.0;
   const auto substeps = static_cast<int>(std::ceil(step_s / 2.5e-4));
   const double dt = step_s / substeps;
@@ -102,7 +108,8 @@ std::vector<double> link_acceleration(const std::vector<double>& drive_rad, doub
     for (int i = 0; i < substeps; ++i) {
       const double wind_up_rad = drive_rad[k] + drive_rad_s * dt * (i + 0.5) - link_rad;
       const double torque_Nm = scale * told.spring.torque_Nm(wind_up_rad) +
-                               std::sqrt(scale) * told.damping_Nms_rad * (drive_rad_s - link_rad_s);
+                               std::sqrt(scale) * told.damping_Nms_rad * (drive_rad_s - link_rad_s) -
+                               load_Nm[k];
       link_rad_s += dt * torque_Nm / told.link_inertia_kgm2;
       link_rad += dt * link_rad_s;
     }

@@ -14,16 +14,22 @@ struct Stretch {
   std::vector<double> velocity_rad_s;  ///< of positions 4 ms before and after
   std::vector<double> torque_Nm;       ///< commanded
   std::vector<double> applied_Nm;
-  std::vector<double> link_rad;   ///< NaN: none
-  std::vector<bool> at_rest;      ///< the setpoint stands
-  std::vector<bool> torque_lost;  ///< less acts than was commanded lately
+  std::vector<double>
+      lost_Nm;  ///< by which less acts than any command lately, all of which pushed one way; 0: none
+  std::vector<double> link_rad;  ///< NaN: none
+  std::vector<bool> at_rest;     ///< the setpoint stands
+
+  /// Whether a drive gives noticeably less than it should at sample `i`.
+  bool torque_lost(std::size_t i) const { return lost_Nm[i] > 0.0; }
 };
 
 /// Up to three missing samples are bridged; a longer gap begins a new stretch. Those shorter than 40 samples are left out.
 std::vector<Stretch> controlled_stretches(const Evidence& evidence);
 
-/// Acceleration of a link that hangs on `told`'s spring times `scale`, where the motor's side of the spring is at `drive_rad`.
-std::vector<double> link_acceleration(const std::vector<double>& drive_rad, double step_s,
+/// Acceleration of a link that hangs on `told`'s spring times `scale`, where the motor's side of the spring is at `drive_rad` and
+/// `load_Nm` holds the link back.
+std::vector<double> link_acceleration(const std::vector<double>& drive_rad,
+                                      const std::vector<double>& load_Nm, double step_s,
                                       const ConfiguredLink& told, double scale);
 
 }  // namespace strainwave

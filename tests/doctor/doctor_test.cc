@@ -74,8 +74,30 @@ TEST(Doctor, SaysWhatItCouldNotJudgeWithoutAConfiguration) {
   const Diagnosis diagnosis = diagnose(swinging({}, 1));
   std::string all;
   for (const std::string& open : diagnosis.not_judged) all += open + "\n";
-  for (const char* what : {"friction", "delay", "--config", "real time", "coupling"})
+  for (const char* what : {"friction", "delay", "--config", "coupling"})
     EXPECT_NE(all.find(what), std::string::npos) << what << " in\n" << all;
+}
+
+TEST(Doctor, NamesNoRealTimeOnlyWhereTheDaemonFaultedForIt) {
+  Evidence evidence = swinging({}, 1);
+  timing_v1 timing{};
+  timing.cycles = 12'000;
+  timing.overruns = 100;
+  evidence.timings.push_back(timing);  // of a desktop: real time refused, cycles late
+  EXPECT_TRUE(diagnose(evidence).findings.empty());
+  evidence.samples.back().fault = static_cast<std::int32_t>(Fault::kPeriodsMissed);
+  const Diagnosis diagnosis = diagnose(evidence);
+  ASSERT_FALSE(diagnosis.findings.empty());
+  EXPECT_EQ(diagnosis.findings.front().cause, "no real time");
+}
+
+TEST(MotionFit, FindsTheSpringUnderALoadAndAnUnevenGear) {
+  for (const int i : {1, 7}) {
+    double seconds = 0.0;
+    const auto fit = fit_motion(examine(random_patient("gravity", i), 1, seconds));
+    ASSERT_TRUE(fit && fit->stiffness_scale);
+    EXPECT_NEAR(fit->stiffness_scale->value, 1.0, 0.2) << i;
+  }
 }
 
 TEST(TestMotion, StaysWithinLimitsAndReachAndComesBack) {

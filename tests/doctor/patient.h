@@ -22,7 +22,8 @@ struct Patient {
   const GainTable* table = nullptr;
   unsigned seed = 0;
   // Of the daemon around it.
-  double stall_share = 0.0;  ///< of the cycles, after which one to three periods are left out
+  double stall_share = 0.0;        ///< of the cycles, after which periods are left out
+  std::int64_t stall_periods = 3;  ///< at most, evenly from one on
   bool real_time = true;
   double clock_rate = 0.0;    ///< of the sender's clock, share
   double clock_jump_s = 0.0;  ///< in the middle
