@@ -38,7 +38,7 @@ const std::vector<Cause>& causes() {
       {"delay",
        "set delay_periods to the measured delay, and design the table for it",
        {{kDelay, 1.0}},
-       {},
+       {kTorqueLag},
        -12.0,
        12.0},
       {"inertia",

@@ -19,6 +19,7 @@ enum class Feature : std::size_t {
   kViscous,    ///< likewise, of friction's slope over speed
   kStiffness,  ///< likewise
   kDelay,      ///< measured less configured, periods
+  kTorqueLag,  ///< what the drive says it applied comes later than the configured delay, periods; never negative
   kLoad,       ///< what pushes besides the configured gravity, N.m
   kLinkRatio,          ///< ln of the link's motion over the motor's, slow motion
   kLinkRatioFast,      ///< the same of fast motion, less that of slow motion

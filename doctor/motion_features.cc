@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "doctor/features.h"
 #include "doctor/motion_fit.h"
+#include "doctor/stretches.h"
 #include "strainwave/vocabulary.h"
 
 namespace strainwave {
@@ -25,6 +27,7 @@ constexpr double kLoadShare = 0.015;  // of the torque limit
 // What is known worse than by this share, or at this many deviations, is not known.
 constexpr double kKnownShare = 0.25;
 constexpr double kSure = 4.0;
+constexpr double kLeastWindUp_counts = 5.0;
 constexpr double kInertiaKnownShare = 0.1;  // so that an inertia 1.8 times the configured is named
 
 Observation ratio_of(double measured, double told, double deviation, double tolerance, std::string text) {
@@ -80,8 +83,16 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
                              inertia.deviation, *evidence.told.inertia_kgm2));
 }
 
-bool knows_stiffness(const MotionFit& fit) {
-  return fit.stiffness_scale && fit.stiffness_scale->deviation <= kKnownShare * fit.stiffness_scale->value;
+/// By how much the link's inertia winds the gear up, counts of the encoder.
+double wind_up_counts(const Evidence& evidence, const MotionFit& fit) {
+  const ConfiguredLink& link = *evidence.told.link;
+  return link.link_inertia_kgm2 * fit.acceleration_rad_s2 / link.spring.stiffness_1_Nm_rad /
+         evidence.count_rad();
+}
+
+bool knows_stiffness(const Evidence& evidence, const MotionFit& fit) {
+  return fit.stiffness_scale && fit.stiffness_scale->deviation <= kKnownShare * fit.stiffness_scale->value &&
+         wind_up_counts(evidence, fit) >= kLeastWindUp_counts;
 }
 
 void add_delay(const Evidence& evidence, const MotionFit& fit, Features& features) {
@@ -95,7 +106,7 @@ void add_delay(const Evidence& evidence, const MotionFit& fit, Features& feature
                     fit.delay_periods.deviation));
     return;
   }
-  if (evidence.told.link && !knows_stiffness(fit)) {
+  if (evidence.told.link && !knows_stiffness(evidence, fit)) {
     features.not_judged.emplace_back("delay: the motion does not tell it from the spring");
     return;
   }
@@ -108,8 +119,14 @@ void add_delay(const Evidence& evidence, const MotionFit& fit, Features& feature
 
 void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& features) {
   if (!evidence.told.link) return;
-  if (!knows_stiffness(fit)) {
-    features.not_judged.emplace_back("stiffness: the motion does not show it");
+  if (!knows_stiffness(evidence, fit)) {
+    const double counts = wind_up_counts(evidence, fit);
+    features.not_judged.push_back(counts >= kLeastWindUp_counts
+                                      ? "stiffness: the motion does not show it"
+                                      : fmt::format("stiffness: too slow, {:.1f} rad/s2 wind the gear up by "
+                                                    "{:.1f} counts; it needs {:.1f} rad/s2",
+                                                    fit.acceleration_rad_s2, counts,
+                                                    fit.acceleration_rad_s2 * kLeastWindUp_counts / counts));
     return;
   }
   const MotionEstimate& scale = *fit.stiffness_scale;
@@ -118,6 +135,27 @@ void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& fea
       ratio_of(scale.value, 1.0, scale.deviation, kStiffnessTolerance,
                fmt::format("stiffness is {:.0f} +-{:.0f} N.m/rad, the configuration says {:.0f}",
                            scale.value * told_Nm_rad, scale.deviation * told_Nm_rad, told_Nm_rad));
+}
+
+// A joint that chatters from its first stroke on is stopped before its motion shows the delay. The drive's own torque shows it then; a drive
+// that repeats the order instead of measuring is never late.
+void add_torque_lag(const Evidence& evidence, Features& features) {
+  if (!evidence.told.delay_periods || evidence.stride_periods() != 1) return;
+  constexpr std::size_t kMostLag = 12;
+  std::array<double, kMostLag + 1> squares{};
+  for (const Stretch& stretch : controlled_stretches(evidence))
+    for (std::size_t i = kMostLag; i < stretch.applied_Nm.size(); ++i)
+      for (std::size_t lag = 0; lag <= kMostLag; ++lag)
+        squares[lag] += std::pow(stretch.applied_Nm[i] - stretch.torque_Nm[i - lag], 2);
+  const auto best = std::min_element(squares.begin() + 1, squares.end() - 1);
+  // A torque that hardly varies fits any lag.
+  if (*best > 0.5 * std::min(best[-1], best[1])) return;
+  // What is reported acted in the period before.
+  const auto lag_periods = static_cast<double>(best - squares.begin()) - 1.0;
+  features[Feature::kTorqueLag] = Observation{
+      std::max(0.0, lag_periods - *evidence.told.delay_periods), kDelayTolerance_periods,
+      fmt::format("the drive's torque comes {:.0f} periods after its command, the configuration says {}",
+                  lag_periods, *evidence.told.delay_periods)};
 }
 
 // A joint that runs away is soon stopped: too short for the fit. Its energy grows while the torque works against its motion.
@@ -159,6 +197,7 @@ void add_runaway(const Evidence& evidence, Features& features) {
 
 void add_motion_features(const Evidence& evidence, Features& features) {
   add_runaway(evidence, features);
+  add_torque_lag(evidence, features);
   const auto fit = fit_motion(evidence);
   if (!fit) {
     features.not_judged.emplace_back(fmt::format(

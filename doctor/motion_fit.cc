@@ -107,9 +107,18 @@ class Regression {
     }
     return normal.inverse();
   }
+  /// The solution in which parameter `i` is 0.
+  static void leave_out(int i, Solved& solved) {
+    const Solution column = solved.inverse.col(i) / solved.inverse(i, i);
+    solved.parameters -= solved.parameters[i] * column;
+    solved.inverse -= solved.inverse(i, i) * column * column.transpose();
+  }
   Solved solve(std::size_t scale, std::size_t delay, const Normal& inverse) const {
     const Solution right = rows_[scale].transpose() * weights_.cwiseProduct(torques_[delay]);
     Solved solved{0.0, inverse * right, inverse};
+    // In a swing, friction that drives looks like less delay.
+    const double inertia_kgm2 = solved.parameters[kMotor] + solved.parameters[kLink];
+    if (solved.parameters[kViscous] * inertia_kgm2 < 0.0) leave_out(kViscous, solved);
     const Eigen::VectorXd left = torques_[delay] - rows_[scale] * solved.parameters;
     solved.squares = left.cwiseAbs2().dot(weights_);
     return solved;

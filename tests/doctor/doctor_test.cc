@@ -91,6 +91,34 @@ TEST(Doctor, NamesNoRealTimeOnlyWhereTheDaemonFaultedForIt) {
   EXPECT_EQ(diagnosis.findings.front().cause, "no real time");
 }
 
+TEST(Doctor, SeesTheDelayInTorqueThatTheDriveMeasures) {
+  for (const int lag_periods : {2, 5}) {
+    Evidence evidence = swinging({.delay_periods = 1}, 1);
+    evidence.told.delay_periods = 1;
+    for (std::size_t i = evidence.samples.size() - 1; i > 10; --i)
+      evidence.samples[i].torque_applied_Nm =
+          evidence.samples[i - static_cast<std::size_t>(lag_periods)].torque_commanded_Nm;
+    const Features features = features_of(evidence);
+    ASSERT_TRUE(features[Feature::kTorqueLag]);
+    EXPECT_EQ(features[Feature::kTorqueLag]->value, lag_periods - 2) << "acted in the period before";
+  }
+}
+
+TEST(Doctor, JudgesTheInertiaOfASlowJointOrSaysWhatItNeeds) {
+  for (const double acceleration_rad_s2 : {2.0, 30.0})
+    for (int i = 0; i < 2; ++i) {
+      Patient patient = random_patient("inertia", i);
+      patient.loop.controller.motion = {1.0, acceleration_rad_s2, acceleration_rad_s2};
+      double seconds = 0.0;
+      const Diagnosis diagnosis = diagnose(examine(patient, 1, seconds));
+      const bool named = !diagnosis.findings.empty() && diagnosis.findings.front().cause == "inertia";
+      bool open = false;
+      for (const std::string& line : diagnosis.not_judged)
+        open = open || (line.starts_with("inertia: ") && line.ends_with(" rad/s2"));
+      EXPECT_TRUE(named || open) << acceleration_rad_s2 << " rad/s2, joint " << i;
+    }
+}
+
 TEST(MotionFit, FindsTheSpringUnderALoadAndAnUnevenGear) {
   for (const int i : {1, 7}) {
     double seconds = 0.0;
