@@ -4,7 +4,7 @@ import {Connection, jointOf} from './connection.js';
 import {History, valuesOf} from './history.js';
 import {Plots} from './plots.js';
 import {readRecording} from './recording.js';
-import {readReport} from './report.js';
+import {Reports} from './reports.js';
 import {JointTable} from './table.js';
 
 const REDRAW_MS = 100;
@@ -86,12 +86,7 @@ function complain(text) {
 async function open(file) {
   complain('');
   try {
-    if (/\.json$/i.test(file.name)) {
-      element('reports').prepend(readReport(file.name, await file.text()));
-      element('reports-section').hidden = false;
-      element('reports').firstElementChild.scrollIntoView({block: 'nearest'});
-      return;
-    }
+    if (/\.(json|html)$/i.test(file.name)) return reports.open(file.name, await file.text());
     const read = readRecording(file.name, new Uint8Array(await file.arrayBuffer()));
     recording = read;
     element('connection').textContent = `recording ${file.name}`;
@@ -113,6 +108,7 @@ function goLive() {
   choose(table.names()[0] ?? null);
 }
 
+const reports = new Reports(element('reports-section'), element('reports'));
 const table = new JointTable(element('joints'), choose);
 const plots = new Plots(element('plots'), (from_s, to_s) => {
   if (!recording && pausedAt_s === null) setPaused(true);

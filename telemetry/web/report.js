@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports of commissioning and of the doctor: JSON objects, whose lists of objects become tables. Every text goes in as text.
+// Reports of commissioning and of the doctor. Lists of objects in JSON become tables. Of a report.html its tables, texts and pictures are
+// made anew: every text goes in as text, and nothing of the file can run, refer to another file, or take the place of the page's own elements.
 
 import {make} from './dom.js';
 
@@ -26,8 +27,33 @@ function tableOf(title, list) {
   return scroll;
 }
 
-/** The report in `text`, a file called `name`, as an element. Throws Error with a text for the user. */
+const HTML_ELEMENTS = {h1: 'h3', h2: 'h4', p: 'p', pre: 'pre', table: 'table', tbody: 'tbody', tr: 'tr', th: 'th', td: 'td'};
+const SVG_ELEMENTS = ['svg', 'title', 'g', 'path', 'circle', 'text'];
+const SVG_ATTRIBUTES = ['viewBox', 'role', 'class', 'd', 'x', 'y', 'cx', 'cy', 'r', 'transform', 'text-anchor'];
+const SVG = 'http://www.w3.org/2000/svg';
+
+function copyOf(node) {
+  if (node.nodeType === Node.TEXT_NODE) return node.data;
+  const isSvg = node.namespaceURI === SVG && SVG_ELEMENTS.includes(node.localName);
+  if (!isSvg && !Object.hasOwn(HTML_ELEMENTS, node.localName)) return '';
+  const copy = isSvg ? document.createElementNS(SVG, node.localName) : document.createElement(HTML_ELEMENTS[node.localName]);
+  for (const {name, value} of node.attributes) if (isSvg && SVG_ATTRIBUTES.includes(name)) copy.setAttribute(name, value);
+  copy.append(...[...node.childNodes].map(copyOf));
+  return copy;
+}
+
+function readHtml(name, text) {
+  const page = new DOMParser().parseFromString(text, 'text/html');
+  if (!page.title.startsWith('Commissioning of ')) throw new Error(`${name}: no report; the report.html of a commissioning is expected`);
+  const scroll = make('div', {className: 'scroll report', tabIndex: 0}, ...[...page.body.childNodes].map(copyOf));
+  scroll.setAttribute('role', 'region');
+  scroll.setAttribute('aria-label', page.title);
+  return [scroll];
+}
+
+/** The report in `text`, a file called `name`, as elements. Throws Error with a text for the user. */
 export function readReport(name, text) {
+  if (/\.html$/i.test(name)) return readHtml(name, text);
   const expected = `${name}: no report; a JSON file of strainwavectl doctor --json or of a commissioning is expected`;
   let report;
   try {
@@ -42,8 +68,6 @@ export function readReport(name, text) {
   if (!entries.some(([, value]) => Array.isArray(value))) throw new Error(expected);
   const isFile = ([, value]) => typeof value === 'string' && value.includes('\n');
   const facts = entries.filter((entry) => !isTable(entry) && !isFile(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);
-  const element = make('details', {}, make('summary', {}, name), make('p', {}, facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)),
-    ...entries.filter(isFile).map(([key, value]) => make('details', {}, make('summary', {}, words(key)), make('pre', {}, value))));
-  element.open = true;
-  return element;
+  return [make('p', {}, facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)),
+    ...entries.filter(isFile).map(([key, value]) => make('details', {}, make('summary', {}, words(key)), make('pre', {}, value)))];
 }

@@ -4,6 +4,7 @@
 //
 //   node page.mjs URL RECORDING-CSV RECORDING-MCAP HOSTILE-CSV SCREENSHOT-FOLDER
 import fs from 'node:fs';
+import path from 'node:path';
 import {obey, openPage, problems, rowsOf, say, sleep, textOf, until, violationsOf, widthWhenSmall} from './browser.mjs';
 
 const [, , url, csv, mcap, hostile, pictures] = process.argv;
@@ -65,11 +66,24 @@ const steps = {
   },
   async report(file) {
     await upload(file);
-    await until(async () => (await page.$('#reports details')) !== null, 5);
-    say(await page.$eval('#reports details', (report) => ({
+    await until(() => page.$eval('#reports', (list, name) => list.firstElementChild?.textContent.startsWith(`${name}, `), path.basename(file)), 5);
+    say(await page.$eval('#reports > details', (report) => ({
       title: report.querySelector('summary').textContent, facts: report.querySelector('p').textContent, rows: [...report.querySelectorAll('tr')].map((row) => [...row.cells].map((cell) => cell.textContent)),
-      files: [...report.querySelectorAll('pre')].map((file) => file.textContent), elements: report.querySelectorAll('img, script').length, connection: document.getElementById('connection').textContent,
+      files: [...report.querySelectorAll('pre')].map((file) => file.textContent), elements: report.querySelectorAll('img, script, style, a, iframe, [id], [onclick], [style]').length,
+      curves: report.querySelectorAll('svg path').length, connection: document.getElementById('connection').textContent, problem: document.getElementById('problem').textContent,
     })));
+  },
+  // What is there after the page was left and opened again.
+  async reload() {
+    await page.reload();
+    await until(async () => (await rows()).length > 0, 10);
+    say({titles: await page.$$eval('#reports > details > summary', (list) => list.map((title) => title.textContent)), hidden: await page.$eval('#reports-section', (section) => section.hidden)});
+  },
+  // The first one.
+  async remove() {
+    await page.$eval('#reports > details', (report) => { report.open = true; });
+    await page.click('#reports > details button');
+    say({left: (await page.$$('#reports > details')).length});
   },
   async nonsense() {
     fs.writeFileSync(`${pictures}/nonsense.csv`, 'a,b\n1,2\n');
@@ -89,6 +103,6 @@ const steps = {
     }));
     say({status, answer, elements: await page.$$eval('#stop, #orders', (list) => list.length)});
   },
-  async problems() { say({problems}); },
+  async problems() { say({problems: problems.splice(0)}); },
 };
 await obey(steps);
