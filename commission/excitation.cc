@@ -84,15 +84,16 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
   const bool runs = braked && runs_away();
   if (wrong && (!braked || guard_.blind())) abort(*wrong);
   if (runs) abort("the joint speeds up while it is braked");
-  // Then it is disabled at once, not braked.
+  // Then it is disabled at once, not braked; a brake that is still shut stays shut.
+  const bool obeys = reading.drive_state == DriveState::kEnabled && !reading.brake_shut;
   if (reading.fault != ActuatorFault::kNone || guard_.blind() || runs ||
-      (stage_ == Stage::kBraking && reading.drive_state != DriveState::kEnabled)) {
+      (stage_ == Stage::kBraking && !obeys)) {
     stage_ = Stage::kDone;
     return {};
   }
   ++stage_periods_;
   double torque = 0.0;
-  if (reading.drive_state == DriveState::kEnabled && !reading.brake_shut)
+  if (obeys)
     torque = std::clamp(torque_Nm(reading.joint_position_rad, speed), -config_.limits.torque_Nm,
                         config_.limits.torque_Nm);
   if (stage_ == Stage::kDone) return {};

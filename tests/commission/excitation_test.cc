@@ -84,6 +84,18 @@ TEST(Excitation, BrakesBeforeItEndsWhenItIsAborted) {
   EXPECT_LT(std::abs(drive.plant().state().velocity_rad_s), 0.2 * joint.excitation.limits.speed_rad_s);
 }
 
+// The drive takes hold of the joint before its brake opens: a motion that is ended then leaves it shut.
+TEST(Excitation, LeavesABrakeShutThatIsNotYetOpen) {
+  const RandomJoint joint = random_joint(2);
+  Excitation excitation(joint.excitation);
+  ActuatorReading reading = reading_at(joint.excitation.start_rad);
+  reading.brake_shut = true;
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(excitation.step(reading).enable);
+  excitation.abort("a key was pressed");
+  EXPECT_FALSE(excitation.step(reading).enable);
+  EXPECT_TRUE(excitation.ended());
+}
+
 TEST(Excitation, DisablesAtOnceWhereThePositionJumps) {
   const RandomJoint joint = random_joint(2);
   Excitation excitation(joint.excitation);
