@@ -19,6 +19,9 @@ std::string printable_lines(std::string_view text);
 /// a line of its own.
 std::string printable_paragraph(std::string_view text);
 
+/// `word` as a shell reads it back: as it is, or in single quotes where it has a space or another character that means something there.
+std::string shell_word(const std::string& word);
+
 /// "1 knot", "2 knots". `thing`: one of them.
 template <std::integral Number>
 std::string counted(Number count, std::string_view thing) {

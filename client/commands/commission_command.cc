@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "client/commands/commands.h"
 #include "client/commands/commission_design.h"
@@ -22,7 +23,7 @@ constexpr double kCurveReach = 1.1;  // of the fastest speed that was measured
 
 std::string command_line(const std::string& program, const std::vector<std::string>& arguments) {
   std::string line = program;
-  for (const std::string& argument : arguments) line += " " + argument;
+  for (const std::string& argument : arguments) line += " " + shell_word(argument);
   return line;
 }
 
@@ -59,7 +60,7 @@ class CommissionRun {
     return fmt::format(
         "  strainwaved --config {0} &\n  strainwavectl enable {1}\n  strainwavectl move {1} {2:.4g} "
         "--speed-limit_rad_s 0.1 --wait",
-        configuration().string(), arguments_.joint, joint_.first_target_rad);
+        shell_word(configuration().string()), shell_word(arguments_.joint), joint_.first_target_rad);
   }
 
   /// What to type after a step failed: measuring goes on with the whole of it.

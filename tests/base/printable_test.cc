@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace strainwave {
@@ -33,6 +34,21 @@ TEST(Printable, ShowsNoTextInAnotherOrderThanItIs) {
 
 TEST(Printable, LetsNoTextPassForALineOfTheProgram) {
   EXPECT_EQ(printable_paragraph("x\nstrainwaved: sound\n\x1b[2J"), "x\n  strainwaved: sound\n  ?[2J");
+}
+
+TEST(ShellWord, IsReadBackByAShell) {
+  EXPECT_EQ(shell_word("elbow/elbow.toml"), "elbow/elbow.toml");
+  for (const char* word :
+       {"", "my joint/elbow.toml", "it's; $HOME `ls` \\ \"a\" *", "a\nb", "~", "#no", "a&b"}) {
+    const std::string command = "printf %s " + shell_word(word);
+    std::string read;
+    FILE* const shell = ::popen(command.c_str(), "r");
+    ASSERT_NE(shell, nullptr);
+    for (int letter = std::fgetc(shell); letter != EOF; letter = std::fgetc(shell))
+      read += static_cast<char>(letter);
+    EXPECT_EQ(::pclose(shell), 0);
+    EXPECT_EQ(read, word);
+  }
 }
 
 TEST(Printable, TakesNothingForTextThatIsNoUtf8) {
