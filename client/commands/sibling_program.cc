@@ -2,6 +2,7 @@
 #include "client/commands/sibling_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -21,10 +22,8 @@ namespace strainwave {
 
 namespace {
 
-/// Ctrl-C reaches both; a signal to this program alone does not.
-void pass_interrupt_on(pid_t child) {
-  if (interrupted()) ::kill(child, SIGTERM);
-}
+// A signal may come just before a wait begins, which it then does not end: the wait looks for it so often.
+constexpr int kLook_ms = 50;
 
 /// What a child writes to its standard output and standard error, if somebody wants to have it.
 class Capture {
@@ -45,17 +44,18 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 
   const posix_spawn_file_actions_t* actions() const noexcept { return &actions_; }
-  /// Until `child` closes it.
-  void read_all(pid_t child) {
-    if (into_ == nullptr) return;
-    write_end_.reset();
+  /// The child has its end; with both ends open here, the pipe would never end.
+  void close_write_end() { write_end_.reset(); }
+  /// Waits for a while, and takes what has come. Also after the child's end, until nothing is left.
+  void read_some() {
+    pollfd readable{read_end_.get(), POLLIN, 0};
+    if (::poll(&readable, 1, kLook_ms) <= 0 || !read_end_) return;
     std::array<char, 4096> part{};
-    for (ssize_t size = 1; size > 0 || (size < 0 && errno == EINTR);) {
-      size = ::read(read_end_.get(), part.data(), part.size());
-      if (size > 0) into_->append(part.data(), static_cast<std::size_t>(size));
-      if (size < 0) pass_interrupt_on(child);
-    }
+    const ssize_t size = ::read(read_end_.get(), part.data(), part.size());
+    if (size > 0) into_->append(part.data(), static_cast<std::size_t>(size));
+    if (size == 0) read_end_.reset();
   }
+  bool open() const { return static_cast<bool>(read_end_); }
 
  private:
   std::string* into_;
@@ -67,6 +67,7 @@ class Capture {
 }  // namespace
 
 int run_sibling(const std::string& name, const std::vector<std::string>& arguments, std::string* printed) {
+  if (interrupted()) return 128 + SIGTERM;
   std::error_code error;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
   std::vector<std::string> words{program};
@@ -83,11 +84,18 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
     throw ClientError(ExitStatus::kUsage, program +
                                               " cannot be run: " + std::generic_category().message(failure) +
                                               ": install it beside strainwavectl");
-  capture.read_all(child);
+  capture.close_write_end();
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for " + name);
-    pass_interrupt_on(child);
+  bool passed_on = false;
+  for (bool ended = false; !ended || capture.open();) {
+    capture.read_some();
+    // Ctrl-C reaches both; a signal to this program alone does not.
+    if (interrupted() && !ended && !passed_on) passed_on = ::kill(child, SIGTERM) == 0;
+    if (ended) continue;
+    const pid_t waited = ::waitpid(child, &status, WNOHANG);
+    if (waited < 0 && errno != EINTR)
+      throw std::system_error(errno, std::generic_category(), "waiting for " + name);
+    ended = waited == child;
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

@@ -2,6 +2,9 @@
 // Orders, their answers, and what is printed of them.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
@@ -9,6 +12,7 @@
 
 #include "base/input_error.h"
 #include "client/commands/sibling_program.h"
+#include "client/protocol/interrupt.h"
 #include "tests/client/commands/commands_fixture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -104,6 +108,25 @@ TEST(SiblingProgram, TellsItsStatusAndWhatItPrintedWhenAsked) {
   EXPECT_EQ(run_sibling("/bin/sh", {"-c", "head -c 300000 /dev/zero"}, &printed), 0);
   EXPECT_EQ(printed.size(), 300014U);
   EXPECT_EQ(run_sibling("/bin/sh", {"-c", "kill -9 $$"}), 128 + 9);
+}
+
+// One that comes between two programs of a sequence, or as one begins.
+TEST(SiblingProgram, IsEndedByASignalWheneverItCame) {
+  const std::filesystem::path made = ::testing::TempDir() + "sibling_program_ran";
+  std::filesystem::remove(made);
+  std::string printed;
+  for (std::string* const captured : {static_cast<std::string*>(nullptr), &printed}) {
+    catch_interrupts();
+    std::raise(SIGTERM);
+    EXPECT_EQ(run_sibling("/usr/bin/touch", {made}, captured), 128 + SIGTERM);
+    EXPECT_FALSE(std::filesystem::exists(made));
+    resume_after_interrupt();
+    catch_interrupts();
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(run_sibling("/bin/sh", {"-c", "kill $PPID; exec sleep 100"}, captured), 128 + SIGTERM);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+    resume_after_interrupt();
+  }
 }
 
 TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {
