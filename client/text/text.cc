@@ -53,8 +53,10 @@ std::string meaning(std::string_view field, const state_v1& state) {
       if (notice == Notice::kFrictionDiffers)
         texts.back() += fmt::format(" ({:.2f} times)", state.friction_factor);
       if (notice == Notice::kDerated)
-        texts.back() += fmt::format(" ({:.1f} N.m, {:.1f} degC below the limit)", state.torque_limit_Nm,
-                                    state.temperature_margin_C);
+        texts.back() += std::isfinite(state.temperature_margin_C)
+                            ? fmt::format(" ({:.1f} N.m, {:.1f} degC below the limit)", state.torque_limit_Nm,
+                                          state.temperature_margin_C)
+                            : fmt::format(" ({:.1f} N.m, temperature lost)", state.torque_limit_Nm);
       if (notice == Notice::kOtherInertia && std::isfinite(state.inertia_estimated_kgm2))
         texts.back() += fmt::format(" ({:.3g} kg m2)", state.inertia_estimated_kgm2);
     }

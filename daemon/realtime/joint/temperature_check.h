@@ -33,6 +33,11 @@ class TemperatureCheck {
   bool known() const noexcept { return use_ != Use::kNotYet; }
   /// The last plausible value; meaningful only once it is known.
   double used_C() const noexcept { return accepted_C_; }
+  /// From it to `limit_C`; NaN while the sensor says nothing plausible.
+  double margin_C(double limit_C) const noexcept {
+    return status_ == TemperatureStatus::kValid ? limit_C - accepted_C_
+                                                : std::numeric_limits<double>::quiet_NaN();
+  }
   /// The sensor's last number; none (NaN) before the first.
   double measured_C() const noexcept { return measured_C_; }
   /// Whether the sensor's last number is above `limit_C`, plausible or not: what is too hot to be believed may be too hot.

@@ -73,7 +73,7 @@ void fill_record(const JointInLoop& joint, const CycleTime& time, StateRecord& r
   fill_friction(joint, time.now_ns, record);
   const TemperatureCheck& temperature = joint.drive.temperature();
   state.temperature_used_C = temperature.known() ? temperature.used_C() : kUnknown;
-  state.temperature_margin_C = joint.config.limits.temperature_limit_C - state.temperature_used_C;
+  state.temperature_margin_C = temperature.margin_C(joint.config.limits.temperature_limit_C);
   state.torque_limit_Nm = joint.law.controller().joint().driving_Nm;
   const auto& weights = joint.law.controller().temperature_weights().weight;
   std::copy(weights.begin(), weights.end(), state.temperature_weights);

@@ -186,6 +186,8 @@ TEST(StateNotes, NameTorqueAndMarginOfAHotJoint) {
   view.state.torque_limit_Nm = 12.25;
   view.state.temperature_margin_C = 3.6;
   EXPECT_EQ(state_notes(view, 0.01), "torque derated (12.2 N.m, 3.6 degC below the limit)");
+  view.state.temperature_margin_C = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(state_notes(view, 0.01), "torque derated (12.2 N.m, temperature lost)");
 }
 
 TEST(StateDetails, NameEveryCodeInWords) {

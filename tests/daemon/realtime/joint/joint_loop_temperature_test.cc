@@ -56,11 +56,13 @@ TEST_P(TemperatureLoss, ChangesTheGainsWithoutATorqueStepAtRestAndBackAgain) {
   const ChangeOver away = change_over(bench, GainsInUse::kFallback);
   EXPECT_LE(away.torque_step_Nm, 0.05);
   EXPECT_TRUE(bench.has_notice(0, Notice::kFallbackGains));
+  EXPECT_TRUE(std::isnan(bench.state(0).temperature_margin_C));
   bench.run(1.0);
   bench.inject(0, {});
   const ChangeOver back = change_over(bench, GainsInUse::kPrimary);
   EXPECT_LE(back.torque_step_Nm, 0.05);
   EXPECT_FALSE(bench.has_notice(0, Notice::kFallbackGains));
+  EXPECT_TRUE(std::isfinite(bench.state(0).temperature_margin_C));
   EXPECT_EQ(bench.fault(0), Fault::kNone);
 }
 
