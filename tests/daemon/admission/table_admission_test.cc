@@ -158,10 +158,11 @@ TEST_F(TableAdmission, ProvesNothingOfGainsThatDoNotActAndStillWantsTheJointsOwn
   EXPECT_EQ(judge_without_law().reason, Reason::kTableIdentity);
 }
 
+// N.cm where N.m are meant.
 TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
   for (TemperatureRule& rule : table_.friction.rules) {
-    rule.friction.static_Nm *= 1000.0;
-    rule.friction.coulomb_Nm *= 1000.0;
+    rule.friction.static_Nm *= 100.0;
+    rule.friction.coulomb_Nm *= 100.0;
   }
   const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
   EXPECT_EQ(verdict.reason, Reason::kTableDefect);
