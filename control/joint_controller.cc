@@ -12,8 +12,6 @@ namespace {
 
 // A reading at its place may be off by one count, and by rounding.
 constexpr double kAtPlaceCounts = 1.01;
-// A plan that has ended is held from then on.
-constexpr int kSettlingPeriods = 2;
 // Of the load that shows: longer than a count's torque lasts.
 constexpr double kWeigh_s = 0.01;
 // Within so many counts a joint that was pushed stands.
@@ -89,7 +87,6 @@ void JointController::load(const GainTable& table) noexcept {
 void JointController::start(double position_rad, double velocity_rad_s,
                             std::optional<double> holding_torque_Nm) noexcept {
   plan_.start(position_rad, velocity_rad_s);
-  rest_periods_ = 0;
   reading_.reset(position_rad, velocity_rad_s);
   law_.begin_anew();
   oscillation_.reset();
@@ -150,7 +147,6 @@ void JointController::advance_plan(const JointMeasurement& measurement) noexcept
     const double velocity_rad_s = seen ? (position_rad - reading_.position_rad()) / passed_s : 0.0;
     law_.reference_jumps();
     plan_.go_on_from(position_rad, velocity_rad_s);
-    rest_periods_ = 0;
     reading_.reset(position_rad, plan_.now().velocity_rad_s);
   }
   for (int period = 0; period < led_periods(config_, measurement); ++period) {
@@ -163,11 +159,9 @@ void JointController::advance_plan(const JointMeasurement& measurement) noexcept
 
 void JointController::choose_phase() noexcept {
   if (plan_.moves()) {
-    rest_periods_ = 0;
     phase_ = MotionPhase::kTracking;
     return;
   }
-  ++rest_periods_;
   if (config_.drive_closes_loop()) return;
   const double off = off_rad(plan_, reading_);
   if (plan_.correct(off, reading_.position_rad(), reading_.still_periods())) {
@@ -176,7 +170,7 @@ void JointController::choose_phase() noexcept {
     phase_ = MotionPhase::kTracking;
   } else if (!at_place(config_, off) || config_.without == Mechanism::kRestTorque) {
     phase_ = MotionPhase::kTracking;
-  } else if (phase_ == MotionPhase::kTracking && rest_periods_ > kSettlingPeriods) {
+  } else if (phase_ == MotionPhase::kTracking) {
     hold_torque_Nm_ =
         config_.gravity.at(plan_.now().link_position_rad) + friction_.load_Nm() + law_.integral_torque_Nm();
     phase_ = MotionPhase::kResting;

@@ -148,7 +148,6 @@ class JointController {
   double driving_share_ = 1.0;
   double hold_torque_Nm_ = 0.0;
   double shown_load_Nm_ = 0.0;
-  int rest_periods_ = 0;  ///< since the plan rests
   MotionPhase phase_ = MotionPhase::kTracking;
   Yielding yielding_;
 };
