@@ -10,8 +10,6 @@ namespace strainwave {
 
 namespace {
 
-// A reading at its place may be off by one count, and by rounding.
-constexpr double kAtPlaceCounts = 1.01;
 // Of the load that shows: longer than a count's torque lasts.
 constexpr double kWeigh_s = 0.01;
 // Within so many counts a joint that was pushed stands.
@@ -48,7 +46,7 @@ double off_rad(const JointPlan& plan, const JointReading& reading) noexcept {
 }
 
 bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
-  return std::abs(off_rad) <= kAtPlaceCounts * count_of(config);
+  return std::abs(off_rad) <= RestCorrections::kAtPlaceCounts * count_of(config);
 }
 
 MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {

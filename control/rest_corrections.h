@@ -13,6 +13,8 @@ class RestCorrections {
  public:
   /// A motor that is seen to stand for so long does: longer than a count flickers, and than most links swing once behind it (20 to 80 Hz).
   static constexpr double kStands_s = 0.02;
+  /// A motor that is off by more is not at its place: one count is what the reading cannot tell, and there is rounding.
+  static constexpr double kAtPlaceCounts = 1.01;
 
   /// `period_s` > 0; `count_rad` > 0: what the reading cannot tell.
   RestCorrections(double period_s, double count_rad) noexcept
@@ -31,7 +33,7 @@ class RestCorrections {
   /// A period of rest, short of its place by `off_rad`, the reading the same for `still_periods`. True: a correction begins.
   bool begins(double off_rad, int still_periods) noexcept {
     const double off_counts = std::abs(off_rad) / count_rad_;
-    off_periods_ = off_counts > kOffCounts && off_counts < kPushedCounts ? off_periods_ + 1 : 0;
+    off_periods_ = off_counts > kAtPlaceCounts && off_counts < kPushedCounts ? off_periods_ + 1 : 0;
     if (off_periods_ < off_limit_ || still_periods < kStillPeriods || corrections_ >= kMost) return false;
     if (begun()) learn(std::clamp(off_rad / from_off_rad_, -1.0, 1.0));
     from_off_rad_ = off_rad;
@@ -43,8 +45,6 @@ class RestCorrections {
  private:
   /// `sim --ablation`: fewer settle with 3, no more with 12.
   static constexpr int kMost = 6;
-  /// One count is what the reading cannot tell.
-  static constexpr double kOffCounts = 1.2;
   /// A motor that friction holds this far off does not exist: it is pushed, and the law and the learned load bring it back.
   static constexpr double kPushedCounts = 250.0;
   /// At one count in so many periods a motor stops in less than a count.
