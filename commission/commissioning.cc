@@ -43,6 +43,18 @@ std::string text_of(const CommissionValue& value) {
                      value.unit, value.used);
 }
 
+/// Of what a table needs.
+std::string missing_in(const MotionEstimates& motion) {
+  std::string names;
+  const auto name = [&](const std::optional<IntervalEstimate>& found, const char* key) {
+    if (!found) names += (names.empty() ? "" : ", ") + std::string(key);
+  };
+  name(motion.motor_inertia_kgm2, "motor_inertia_kgm2");
+  name(motion.link_inertia_kgm2, "load_inertia_kgm2");
+  name(motion.stiffness_1_Nm_rad, "stiffness_Nm_rad");
+  return names;
+}
+
 }  // namespace
 
 Commissioning::Commissioning(const CommissioningConfig& config, std::optional<CommissionRecord> before)
@@ -226,6 +238,11 @@ std::string Commissioning::find_motion() {
                      found->stiffness_1_Nm_rad->value,
                      found->damping_Nms_rad ? found->damping_Nms_rad->value : 0.0,
                      found->delay_s.value + 0.5 * strokes_.period_s};
+  else
+    record_.problem = fmt::format(
+        "{}: not known to 5 %, since the motion was too small: give a larger range between the position "
+        "limits, or a larger speed or torque limit",
+        missing_in(*found));
   // Again, without the torque that changed the speed, where the steady strokes are of this run.
   if (const std::vector<FrictionAtSpeed> friction =
           find_friction(strokes_, friction_search(config_.told.gear_ratio, found));

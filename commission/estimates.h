@@ -35,7 +35,8 @@ struct FrictionAtSpeed {
   IntervalEstimate torque_Nm;
 };
 
-/// Of the motion: what torque and position say together while the motor slides. Absent is what the trace does not show.
+/// Of the motion: what torque and position say together while the motor slides. Absent is what the trace does not show: a half width
+/// above 5 %, of a resonance above 2 %, of damping above half.
 struct MotionEstimates {
   IntervalEstimate
       delay_s;  ///< from an order to its torque: the drive's delay and the time constant of its current loop

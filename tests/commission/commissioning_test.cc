@@ -145,6 +145,17 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+TEST(Commissioning, NamesNumbersThatTheMotionDoesNotShow) {
+  const RandomJoint joint = random_joint(13);  // it hardly swings
+  Bench bench(joint);
+  Commissioning commissioning(configure(joint));
+  bench.run(commissioning);
+  const CommissionRecord& record = commissioning.record();
+  EXPECT_EQ(step_of(record, "motion").outcome, StepOutcome::kFailed);
+  EXPECT_NE(record.problem.find("load_inertia_kgm2, stiffness_Nm_rad: not known to 5 %"), std::string::npos)
+      << record.problem;
+}
+
 TEST(Commissioning, HasAResponseThatTheModelExplains) {
   const CommissionRecord& record = whole().commissioning.record();
   ASSERT_TRUE(record.model);
