@@ -72,7 +72,8 @@ const char* text_of(StepOutcome outcome) {
 }
 
 std::string steps_table(const CommissionRecord& record) {
-  std::string html = heading("Steps") + "<table><tr><th>step</th><th>outcome</th><th>found</th><th>s</th></tr>\n";
+  std::string html =
+      heading("Steps") + "<table><tr><th>step</th><th>outcome</th><th>found</th><th>s</th></tr>\n";
   for (const CommissionStep& step : record.steps)
     html += "<tr>" + cell(step.name) + cell(text_of(step.outcome)) + cell(step.text) +
             number_cell(fmt::format("{:.1f}", step.time_s)) + "</tr>\n";
