@@ -94,6 +94,7 @@ SampleFate JointPlan::follow(const StreamSample& sample, bool begins, double spe
 void JointPlan::follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
                             const PositionRange& range) noexcept {
   begin_order(0.0);
+  if (!trajectory_.streamed()) pace_ = 1.0;
   trajectory_.follow_path(position_rad, velocity_rad_s, in_periods, range);
 }
 

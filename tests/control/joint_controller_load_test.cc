@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/control/controlled_joint.h"
 
@@ -108,6 +109,33 @@ TEST(JointControllerLoad, FollowsTheTorqueThatIsToldWhileTheJointRests) {
     ASSERT_NEAR(loop.position_rad(), 0.1, 3.0 * kCount_rad) << k;
   }
   EXPECT_NEAR(step.output.torque_Nm - before_Nm, 4.0, 1e-9);
+}
+
+// A move under a load that takes the torque goes slower; the path after it does not.
+TEST(JointControllerLoad, OfAMoveDoesNotSlowThePathAfterIt) {
+  const auto references_rad = [](double load_Nm) {
+    JointControllerConfig config = realistic_config();
+    config.motion = {10.0, 100.0, 1e4};
+    config.torque_limit_Nm = 18.0;
+    ControlledJoint loop(realistic_plant(), config);
+    loop.load_torque_Nm = load_Nm;
+    loop.controller().set_target(1.0, 0.0);
+    loop.run(2.0);
+    loop.load_torque_Nm = 0.0;
+    loop.run(0.5);
+    constexpr double kPath_rad_s = 17.5;
+    std::vector<double> along_rad;
+    for (int k = 0; k < 400; ++k) {
+      const double angle_rad = 1e-3 * kPath_rad_s * k;
+      loop.controller().follow_path(1.0 + 0.3 * (1.0 - std::cos(angle_rad)),
+                                    0.3 * kPath_rad_s * std::sin(angle_rad), 1, {});
+      along_rad.push_back(loop.step().ordered_reference.position_rad);
+    }
+    return along_rad;
+  };
+  const std::vector<double> without_rad = references_rad(0.0);
+  const std::vector<double> after_rad = references_rad(14.0);
+  for (std::size_t k = 0; k < without_rad.size(); ++k) ASSERT_NEAR(after_rad[k], without_rad[k], 1e-4) << k;
 }
 
 // The load stays what it is when the stream ends: nothing steps, neither then nor when the next motion begins.
