@@ -23,6 +23,8 @@ namespace {
 
 constexpr double kOrderLifetime_s = 1.0;
 constexpr double kMaxRecorder_MB = 1024.0;
+// A loop that is late in every cycle misses at least as many periods as it keeps.
+constexpr double kShareOfLateLoop = 0.5;
 
 /// Of this machine.
 std::int64_t last_processor() {
@@ -41,6 +43,11 @@ LoopConfig read_loop(TomlSection& section) {
   overruns.stall_s = section.number_or("stall_limit_s", std::max(overruns.stall_s, 2.0 * loop.period_s),
                                        {2.0 * loop.period_s, 1e6});
   overruns.missed_share = section.number_or("missed_share_limit", overruns.missed_share, {0.0, 1.0});
+  if (overruns.missed_share >= kShareOfLateLoop && overruns.missed_share < 1.0)
+    section.fail(
+        "missed_share_limit",
+        "below 0.5, or 1 for no supervision, is allowed: a loop that is late in every cycle misses half "
+        "of its periods");
   loop.state_rate_Hz = section.number_or("state_rate_Hz", loop.state_rate_Hz, {0.1, 1.0 / loop.period_s});
   doubt_loop(section, loop);
   return loop;

@@ -27,7 +27,6 @@ constexpr double kFastestInput_rad_s = 14000.0 / 60.0 * kTurn_rad;
 constexpr double kLargeOverspeed = 2.0;
 // What a joint does on its own over a longer absence of the loop is no small thing.
 constexpr double kLongAbsence_s = 0.1;
-constexpr double kLargeShare = 0.5;
 // To full speed, or half a turn: a robot's joint needs tenths of a second. Beyond these it practically stands.
 constexpr double kSlowStart_s = 2.0;
 constexpr double kSlowTurn_s = 120.0;
@@ -189,11 +188,8 @@ void doubt_loop(const TomlSection& section, const LoopConfig& loop) {
   };
   off("stall_limit_s", loop.overruns.stall_s > kLongAbsence_s,
       "for so long a joint may be without control before it is a fault", defaults.stall_s);
-  off("missed_share_limit", loop.overruns.missed_share > kLargeShare,
-      loop.overruns.missed_share >= 1.0
-          ? "however many periods are missed is no fault: the supervision is off"
-          : "so large a share of the periods may be missed without a fault",
-      defaults.missed_share);
+  off("missed_share_limit", loop.overruns.missed_share >= 1.0,
+      "however many periods are missed is no fault: the supervision is off", defaults.missed_share);
 }
 
 }  // namespace strainwave
