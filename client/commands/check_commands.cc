@@ -5,6 +5,7 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/sibling_program.h"
+#include "client/protocol/interrupt.h"
 #include "strainwave/client_error.h"
 
 namespace strainwave {
@@ -17,6 +18,7 @@ void check(const Output& output, const std::filesystem::path& config,
   std::string printed;
   output.stream.flush();
   const int status = run_sibling("strainwaved", arguments, output.json ? &printed : nullptr);
+  if (interrupted()) throw ClientError(ExitStatus::kInterrupted, config.string() + ": the check was stopped");
   if (output.json) {
     nlohmann::ordered_json result{{"config", config.string()}, {"passed", status == 0}};
     result["lines"] = nlohmann::ordered_json::array();
