@@ -84,7 +84,7 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
   const bool runs = braked && runs_away();
   if (wrong && (!braked || guard_.blind())) abort(*wrong);
   if (runs) abort("the joint speeds up while it is braked");
-  // Then it is disabled at once, not braked; a brake that is still shut stays shut.
+  // Then it is disabled at once, not braked; while the brake opens, the torque is still 0.
   const bool obeys = reading.drive_state == DriveState::kEnabled && !reading.brake_shut;
   if (reading.fault != ActuatorFault::kNone || guard_.blind() || runs ||
       (stage_ == Stage::kBraking && !obeys)) {

@@ -43,7 +43,7 @@ class Path {
   void pause();
   /// Goes on after a pause.
   void resume();
-  /// Ends the path, with all joints, and returns once they hold. Needs no key.
+  /// Ends the path: each joint stops within its own limits, off the path. Returns once they hold. Needs no key.
   void hold();
   /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Waits
   /// while the path is paused, too: see State::has(Notice::kPathPaused) and State::path_time_s. Throws Faulted, NoAnswer, and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time along a path: it runs with the clock, or slower while the path is paused, resumed or ended, so that the joints stay on the
-// path. Real-time safe; time is counted in seconds of the path.
+// The time along a path: it runs with the clock, or slower while the path is paused or resumed, so that the joints stay on the path.
+// Real-time safe; time is counted in seconds of the path.
 //
 // With the rate r of the path's time s, what a joint does is
 //

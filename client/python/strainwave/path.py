@@ -65,7 +65,7 @@ class Path:
         self._joints[0]._order(Action.RESUME)
 
     def hold(self):
-        """Ends the path, with all joints, and returns once they hold. Needs no key."""
+        """Ends the path: each joint stops within its own limits, off the path. Returns once they hold. Needs no key."""
         for joint in self._joints:
             joint.hold()
 
