@@ -73,7 +73,7 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
     features.not_judged.emplace_back(
         evidence.samples.back().fault != 0
             ? "inertia: the fault ended the motion too early to show it"
-            : fmt::format("inertia: too slow, {:.1f} rad/s2 show it to {:.0f} % only; it needs {:.1f} rad/s2",
+            : fmt::format("inertia: {:.1f} rad/s2 show it to {:.0f} % only; allow {:.1f} rad/s2",
                           fit.acceleration_rad_s2, 100.0 * share,
                           fit.acceleration_rad_s2 * share / kInertiaKnownShare));
   else
@@ -123,8 +123,8 @@ void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& fea
     const double counts = wind_up_counts(evidence, fit);
     features.not_judged.push_back(counts >= kLeastWindUp_counts
                                       ? "stiffness: the motion does not show it"
-                                      : fmt::format("stiffness: too slow, {:.1f} rad/s2 wind the gear up by "
-                                                    "{:.1f} counts; it needs {:.1f} rad/s2",
+                                      : fmt::format("stiffness: at {:.1f} rad/s2 the gear winds up by {:.1f} "
+                                                    "counts only; allow {:.1f} rad/s2",
                                                     fit.acceleration_rad_s2, counts,
                                                     fit.acceleration_rad_s2 * kLeastWindUp_counts / counts));
     return;
@@ -205,8 +205,13 @@ void add_motion_features(const Evidence& evidence, Features& features) {
         kLeastMotionWindows));
     return;
   }
-  add_inertia(evidence, *fit, features);
-  add_friction(evidence, *fit, features);
+  // What swings is no motion that shows them.
+  if (static_cast<Fault>(evidence.samples.back().fault) == Fault::kChatter) {
+    features.not_judged.emplace_back("inertia and friction: torque oscillated until the fault");
+  } else {
+    add_inertia(evidence, *fit, features);
+    add_friction(evidence, *fit, features);
+  }
   add_delay(evidence, *fit, features);
   add_stiffness(evidence, *fit, features);
   features[Feature::kLoad] = Observation{

@@ -71,7 +71,9 @@ bool GuardedStrokes::arrived(double target_rad) const {
 void GuardedStrokes::check(std::optional<double> target_rad) {
   guarded_.require_undisturbed();
   if (target_rad && state().target_position_rad != *target_rad)
-    throw ClientError(ExitStatus::kRefused, joint_ + ": another command replaced this one's");
+    throw ClientError(ExitStatus::kRefused, joint_ +
+                                                ": another command replaced this one, or this PC was too "
+                                                "late for its own: see its notices in status");
   const double torque_Nm = std::abs(state().torque_applied_Nm);
   if (torque_Nm > max_torque_Nm_)
     throw ClientError(ExitStatus::kRefused,
