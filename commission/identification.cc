@@ -144,9 +144,9 @@ std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& 
         double most = 0.0;
         for (std::size_t i = left_at; i <= k; ++i)
           most = std::max(most, std::abs(trace.samples[i].torque_ordered_Nm));
-        torques[way].push_back(most);
-        uncertainty[way] =
-            std::max(uncertainty[way], most - std::abs(trace.samples[left_at].torque_ordered_Nm));
+        // The ramp goes on rising until the joint is seen to slide.
+        torques[way].push_back(std::abs(trace.samples[left_at].torque_ordered_Nm));
+        uncertainty[way] = std::max(uncertainty[way], most - torques[way].back());
       }
       rest = 0;
     }
