@@ -145,6 +145,8 @@ SpringDesign design_on_spring(Controller controller, const TableRequest& request
     throw NotAchieved(refusal + "\nA table is certified with --load-inertia_kgm2 " + range_text(link) +
                       " in place of --load or --load-inertia_kgm2.");
   }
+  if (spring.motor_inertia_kgm2.from == spring.motor_inertia_kgm2.to)
+    refusal += "\nTried were motor inertias within 5 and 2 %: give a narrower --motor-inertia_kgm2 FROM..TO.";
   throw NotAchieved(refusal);
 }
 
