@@ -109,6 +109,7 @@ namespace {
 std::vector<BoxRange> motors_to_try(const BoxRange& given) {
   if (given.from != given.to) return {given};
   std::vector<BoxRange> motors;
+  motors.reserve(kMotorShares.size());
   for (const double share : kMotorShares)
     motors.push_back({(1.0 - share) * given.from, (1.0 + share) * given.to});
   return motors;
