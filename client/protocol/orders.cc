@@ -118,9 +118,10 @@ void send_stop(Client& client, const std::string& joint, Action stop) {
     const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command_message(stop));
     require_accepted(answer, joint, std::string(to_text(stop)));
   } catch (const NoAnswer& error) {
-    throw NoAnswer(fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
-                               PendingOrder::kStopTransmissions, error.what()),
-                   joint);
+    throw NoAnswer(
+        fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
+                    PendingOrder::stop_patience(client.options().timeout_s).transmissions, error.what()),
+        joint);
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -40,19 +41,21 @@ class PendingOrder {
   using Publish = std::function<void(const std::string& channel, std::span<const std::uint8_t> bytes)>;
 
   static constexpr int kRepetitions = 3;
-  /// How often an order of so many bytes is sent before it is given up: four times, and once more for each further packet of Ethernet. A
-  /// message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's part would leave 1 of 14
-  /// without an answer. These leave 1 of 350, and of commands 1 of 770.
-  static constexpr Patience patience(std::size_t bytes, double timeout_s) noexcept {
+  /// The daemon refuses a command that is older than about this: a repetition that comes later cannot replace what was lost.
+  static constexpr double kOrderLifetime_s = 1.0;
+  /// How often an order of so many bytes is sent before it is given up: four times in each second of the time-out, and once more for each
+  /// further packet of Ethernet. A message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's
+  /// part would leave 1 of 14 without an answer. These leave 1 of 350, and of commands 1 of 770.
+  static Patience patience(std::size_t bytes, double timeout_s) noexcept {
     constexpr std::size_t kPacketBytes = 1472;  // of 1500, without the headers of IP and UDP
     const std::size_t packets = std::max<std::size_t>(1, (bytes + kPacketBytes - 1) / kPacketBytes);
-    return {static_cast<int>(packets) + kRepetitions, timeout_s};
+    return {static_cast<int>(packets + kRepetitions) * lifetimes(timeout_s, kOrderLifetime_s), timeout_s};
   }
   /// A stop is also repeated for longer than the daemon takes to replace a gateway that hangs, 2 to 3 s: what that one had not read is lost.
   static constexpr int kStopTransmissions = 8;
   static constexpr double kStopPatience_s = 4.0;
-  static constexpr Patience stop_patience(double timeout_s) noexcept {
-    return {kStopTransmissions, std::max(timeout_s, kStopPatience_s)};
+  static Patience stop_patience(double timeout_s) noexcept {
+    return {kStopTransmissions * lifetimes(timeout_s, kStopPatience_s), std::max(timeout_s, kStopPatience_s)};
   }
 
   /// Transmits `order` for the first time. `ack_channel`: where its answer comes from.
@@ -70,6 +73,10 @@ class PendingOrder {
   }
 
  private:
+  static int lifetimes(double timeout_s, double lifetime_s) noexcept {
+    constexpr double kMost = 1e6;  // an int yet, with 9 or more in each
+    return static_cast<int>(std::clamp(std::ceil(timeout_s / lifetime_s), 1.0, kMost));
+  }
   void transmit();
 
   Publish publish_;

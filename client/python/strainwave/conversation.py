@@ -3,6 +3,7 @@
 Source: client/protocol/client.h, pending_order.h; docs/commands.md.
 """
 import collections
+import math
 
 from .ack_v1 import ack_v1
 from .errors import InvalidInput, NoAnswer, NotDone, Refused
@@ -13,7 +14,7 @@ from .state_v1 import state_v1
 from .vocabulary import Reason
 
 ATTEMPTS = 3  # how often an order is sent with another sequence, when another program of its key was ahead
-TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that fits into a packet
+TRANSMISSIONS = 4  # of the identical message in an order's lifetime, until it is answered; of one that fits into a packet
 STOP_TRANSMISSIONS = 8  # of a stop
 STOP_PATIENCE_S = 4.0  # at the least: longer than the daemon takes to replace a gateway that hangs
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
@@ -28,9 +29,11 @@ _ORDER_LIFETIME_S = 1.0  # from the call to the state that the order quotes
 _SETTLES_S = 0.2  # after a stop or a fault the next state or the one after it has a new challenge
 
 
-def most_transmissions(message_bytes):
-    """Of a message of so many bytes: it is lost with any one of the packets that Ethernet cuts it into."""
-    return TRANSMISSIONS + max(0, -(-message_bytes // _PACKET_BYTES) - 1)
+def most_transmissions(message_bytes, timeout_s):
+    """Of a message of so many bytes, in each lifetime of an order: a later repetition cannot replace what was lost. It is lost with any one of
+    the packets that Ethernet cuts it into."""
+    packets = max(1, -(-message_bytes // _PACKET_BYTES))
+    return (TRANSMISSIONS + packets - 1) * max(1, math.ceil(timeout_s / _ORDER_LIFETIME_S))
 
 
 class CycleClock:
@@ -131,10 +134,11 @@ class Conversation:
         for attempt in range(ATTEMPTS):
             if prepare:
                 prepare(message)
-            answer = self._exchange(kind, message, state, most_transmissions(len(message.encode())), self.timeout_s)
+            transmissions = most_transmissions(len(message.encode()), self.timeout_s)
+            answer = self._exchange(kind, message, state, transmissions, self.timeout_s)
             if answer is None:
                 raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
-                               f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the command was carried "
+                               f"{transmissions} transmissions: {self._why_no_answer()} Whether the command was carried "
                                "out is not known: see Joint.state")
             if answer.accepted == 1:
                 return
@@ -146,10 +150,11 @@ class Conversation:
 
     def request_stop(self, kind, message, order):
         """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
-        answer = self._exchange(kind, message, self.state, STOP_TRANSMISSIONS, max(self.timeout_s, STOP_PATIENCE_S))
+        transmissions = STOP_TRANSMISSIONS * max(1, math.ceil(self.timeout_s / STOP_PATIENCE_S))
+        answer = self._exchange(kind, message, self.state, transmissions, max(self.timeout_s, STOP_PATIENCE_S))
         self._stopped = self.messages
         if answer is None:
-            raise NoAnswer(f"{self.joint}: the stop was sent {STOP_TRANSMISSIONS} times, and nothing answered: "
+            raise NoAnswer(f"{self.joint}: the stop was sent {transmissions} times, and nothing answered: "
                            + (self._why_no_answer() if self.state else self._silence()))
         if answer.accepted != 1:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))

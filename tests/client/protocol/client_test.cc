@@ -46,6 +46,15 @@ TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
   EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->session_id, 4711);
 }
 
+TEST(Patience, OfAnyLengthRepeatsAnOrderWhileTheDaemonStillObeysIt) {
+  for (const double timeout_s : {0.2, 1.0, 1.5, 20.0, 600.0}) {
+    const Patience patience = PendingOrder::patience(sizeof(command_v1), timeout_s);
+    EXPECT_LE(PendingOrder::kRepetitions * patience.timeout_s / patience.transmissions,
+              PendingOrder::kOrderLifetime_s)
+        << timeout_s;
+  }
+}
+
 TEST_F(ClientTest, RepeatsWhatANetworkCutsIntoPacketsOftenerAndSaysHowOften) {
   daemon.publish_state();
   daemon.drop = 8;

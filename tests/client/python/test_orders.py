@@ -9,6 +9,7 @@ import unittest
 
 from played_orders import YIELDED, PlayedOrders, published
 from strainwave import Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, Yielded
+from strainwave.conversation import most_transmissions
 from strainwave.network import now_s
 
 
@@ -19,6 +20,10 @@ class Orders(PlayedOrders):
             self.impatient_elbow.release()
         self.assertEqual(len(self.network.published), 4)
         self.assertEqual(len(set(self.network.published)), 1)
+
+    def test_are_repeated_while_the_daemon_still_obeys_them_whatever_the_timeout(self):
+        for timeout_s in (0.2, 1.0, 1.5, 20.0, 600.0):
+            self.assertLessEqual(3 * timeout_s / most_transmissions(100, timeout_s), 1.0, timeout_s)
 
     def test_quote_session_and_challenge_of_the_latest_state(self):
         self.publish_state()
