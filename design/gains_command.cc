@@ -288,6 +288,7 @@ void add_gains_command(CLI::App& program, CommandBody& chosen) {
   add_plant_options(*command, *options);
   add_design_options(*command, *options);
   add_spring_options(*command, options->spring);
+  command->get_option("--rotor-inertia_kgm2")->excludes("--motor-inertia_kgm2");
   command->add_option("--name", options->name, "name of the table; default: joint model and controller");
   command
       ->add_option("--out", options->out,

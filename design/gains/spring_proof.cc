@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <iomanip>
 #include <limits>
+#include <list>
 #include <sstream>
+#include <thread>
 
 #include "base/input_error.h"
 #include "control/joint/gear_catalogue.h"
@@ -136,35 +139,70 @@ bool cut(const SpringBox& box, bool keeps_stiffness, std::array<SpringBox, 2>& h
 
 }  // namespace
 
+namespace {
+
+// What is known of a cell before it is cut.
+struct Attempt {
+  WorstCorner unstable;
+  std::optional<ProofMatrix> P;
+  bool keeps_stiffness = false;
+};
+
+Attempt attempt(std::span<const GainRow> gains, const SpringBox& cell, bool whole_stiffness,
+                const SpringLoop& loop) {
+  Attempt result{worst_corner(gains, cell, loop), {}, false};
+  if (!(result.unstable.radius < loop.decay_rate)) return result;
+  result.P = find_spring_lyapunov(gains, cell, loop);
+  result.keeps_stiffness = !result.P && whole_stiffness && may_change_stiffness(gains, cell, loop);
+  return result;
+}
+
+struct OpenCell {
+  SpringBox box;
+  std::future<Attempt> attempt;
+};
+
+}  // namespace
+
 SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                              int most_cells) {
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
   SpringProof proof;
   proof.most_cells = most_cells;
   proof.worst.margin = std::numeric_limits<double>::infinity();
-  std::vector<SpringBox> open{box};
-  while (!open.empty()) {
-    proof.cell = open.back();
-    open.pop_back();
-    proof.unstable = worst_corner(gains, proof.cell, loop);
-    if (!(proof.unstable.radius < loop.decay_rate)) {
+  std::list<OpenCell> cells;
+  cells.push_back({box, {}});
+  const auto is_whole = [&box](const SpringBox& cell) {
+    return cell.stiffness_Nm_rad.from == box.stiffness_Nm_rad.from &&
+           cell.stiffness_Nm_rad.to == box.stiffness_Nm_rad.to;
+  };
+  for (auto next = cells.begin(); next != cells.end();) {
+    // As many of those to come as there are processors; each is solved in a process of its own.
+    unsigned under_way = 0;
+    for (auto cell = next; cell != cells.end() && under_way < processors; ++cell, ++under_way) {
+      if (!cell->attempt.valid())
+        cell->attempt = std::async(std::launch::async, attempt, gains, cell->box, is_whole(cell->box), loop);
+    }
+    const Attempt result = next->attempt.get();
+    proof.cell = next->box;
+    proof.unstable = result.unstable;
+    if (!(result.unstable.radius < loop.decay_rate)) {
       proof.outcome = SpringOutcome::kUnstable;
       return proof;
     }
-    if (const std::optional<ProofMatrix> P = find_spring_lyapunov(gains, proof.cell, loop)) {
-      const SpringReport report = certify(gains, proof.cell, loop, *P);
-      proof.cells.push_back({proof.cell, *P});
+    if (result.P) {
+      const SpringReport report = certify(gains, proof.cell, loop, *result.P);
+      proof.cells.push_back({proof.cell, *result.P});
       proof.inequalities += report.inequalities;
       if (report.margin < proof.worst.margin) proof.worst = report;
+      ++next;
       continue;
     }
-    const BoxRange& stiffness = proof.cell.stiffness_Nm_rad;
-    const bool whole = stiffness.from == box.stiffness_Nm_rad.from && stiffness.to == box.stiffness_Nm_rad.to;
-    const bool keeps_stiffness = whole && may_change_stiffness(gains, proof.cell, loop);
     std::array<SpringBox, 2> halves;
-    if (static_cast<int>(proof.cells.size() + open.size()) + 2 > most_cells ||
-        !cut(proof.cell, keeps_stiffness, halves))
+    if (static_cast<int>(cells.size()) + 1 > most_cells || !cut(proof.cell, result.keeps_stiffness, halves))
       return proof;
-    open.insert(open.end(), halves.begin(), halves.end());
+    next = cells.erase(next);
+    for (const SpringBox& half : halves) next = cells.insert(next, OpenCell{half, {}});
   }
   proof.outcome = SpringOutcome::kCertified;
   return proof;

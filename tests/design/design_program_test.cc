@@ -219,6 +219,8 @@ TEST_F(DesignProgram, AsksForTheMotorWhichTheCatalogueOfGearsCannotKnow) {
   refused("gains --gear csf-20-50 --rotor-inertia_kgm2 -1e-5 --load 1kg@0.3m",
           {"--rotor-inertia_kgm2 = -1e-05", "must not be negative"});
   refused("gains --rotor-inertia_kgm2 1e-5 " + friction, {"--gear"});
+  refused("gains --gear csf-17-50 --rotor-inertia_kgm2 1e-6 --motor-inertia_kgm2 0.07 --load 1kg@0.2m",
+          {"--rotor-inertia_kgm2 excludes --motor-inertia_kgm2"});
   const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --load-inertia_kgm2 0.1";
   EXPECT_EQ(run(rigid), 2);
   EXPECT_NE(output_.find("give --gear"), std::string::npos) << output_;
