@@ -28,7 +28,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr int kPer_ms = 10;
-constexpr int kStops = 40;
+constexpr int kStops = 15;
 constexpr double kBound_ms = 50.0;
 
 /// Floods the group from several ports until it is killed. The crashing fragments go to a channel of orders: LCM's library

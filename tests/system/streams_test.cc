@@ -20,8 +20,8 @@ constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr double kAmplitude_rad = 0.5;
 // Cycles that a sample is stamped ahead: the longest interval, the controller's lead, and the way.
 constexpr std::int64_t kAhead = 60;
-constexpr std::int64_t kBegin = 1000;
-constexpr std::int64_t kEnd = 3000;  // one whole period of the sine
+constexpr std::int64_t kBegin = 500;
+constexpr std::int64_t kEnd = 2500;  // one whole period of the sine
 
 struct Ride {
   double rms_torque_Nm = 0.0;
@@ -64,7 +64,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
   /// A sample every `every` cycles, of which the network loses, doubles and reorders a tenth each and has gaps of 30 ms if it is `bad`.
   Ride ride(std::int64_t every, int derivatives, bool bad) {
     EXPECT_TRUE(client_->move("elbow", 0.0).accepted);
-    client_->pump(milliseconds(2000));
+    client_->pump(milliseconds(700));
     client_->begin_stream();
     client_->forget_states();
     client_->pump(milliseconds(10));
@@ -136,7 +136,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     constexpr int kSamples = 90;
     constexpr int kLost = 40;  // at full speed, in the second period of the sine
     EXPECT_TRUE(client_->move("elbow", 0.0).accepted);
-    client_->pump(milliseconds(2000));
+    client_->pump(milliseconds(700));
     client_->begin_stream();
     client_->forget_states();
     setpoint_v1 first = client_->make_setpoint("elbow", 0.0, 0.3);
@@ -217,7 +217,7 @@ TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes)
   };
   print("200 Hz with velocity", smooth);
   // Of every rate with and without velocities, JointLoopStreams; here, what the way to the loop could spoil.
-  for (const auto& [every, derivatives] : {std::pair{50, 0}, std::pair{2, 0}, std::pair{10, 1}}) {
+  for (const auto& [every, derivatives] : {std::pair{50, 0}, std::pair{2, 0}}) {
     const Ride streamed = ride(every, derivatives, false);
     print(("every " + std::to_string(every) + " ms, derivatives " + std::to_string(derivatives)).c_str(),
           streamed);
