@@ -101,8 +101,8 @@ install(DIRECTORY "${STRAINWAVE_PYTHON_PACKAGE}" DESTINATION lib/python3/dist-pa
         FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwavectl strainwave-lcmtypes strainwave-client strainwave_python manual)
-foreach(product strainwaved strainwave-gateway strainwave-telemetry strainwave-sim strainwave-design strainwave_spy)
+add_custom_target(products DEPENDS strainwavectl strainwave-lcmtypes strainwave-client strainwave_python)
+foreach(product manual strainwaved strainwave-gateway strainwave-telemetry strainwave-sim strainwave-design strainwave_spy)
   if(TARGET ${product})
     add_dependencies(products ${product})
   endif()
