@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "design/table_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdarg>
@@ -24,6 +25,18 @@ namespace {
 template <std::size_t N>
 std::string str(const FixedString<N>& text) {
   return std::string(text.view());
+}
+
+// Whose spring may have any stiffness of the box at every instant: of cells that hold all of it, at every delay. From the heaviest link, or
+// one beyond, to the heaviest: none.
+BoxRange links_with_any_stiffness(const CertifiedBox& box) {
+  BoxRange links = box.link_inertia_kgm2;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {
+    const BoxRange& stiffness = box.cells[i].stiffness_Nm_rad;
+    if (stiffness.from > box.stiffness_Nm_rad.from || stiffness.to < box.stiffness_Nm_rad.to)
+      links.from = std::max(links.from, box.cells[i].link_inertia_kgm2.to);
+  }
+  return links;
 }
 
 std::string gains_text(const FeedbackGains& gains, const char* role) {

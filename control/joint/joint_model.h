@@ -4,7 +4,10 @@
 //   F(w) = Fc + Fv w + (Fs - Fc) exp(-(w/ws)^2)
 #pragma once
 
+#include <cmath>
+
 #include "control/friction/friction.h"
+#include "control/units.h"
 
 namespace strainwave {
 
@@ -14,10 +17,21 @@ struct JointModel {
   StribeckShape stribeck;
 
   /// F(|w|) > 0, and Fs for w -> 0.
-  double friction_Nm(double velocity_rad_s) const noexcept;
+  double friction_Nm(double velocity_rad_s) const noexcept {
+    return velocity_rad_s == 0.0 ? friction.static_Nm
+                                 : std::abs(stribeck_friction_Nm(friction, stribeck, velocity_rad_s));
+  }
   /// Mean torque against friction over a time in which the velocity changes evenly from `begin_rad_s` to `end_rad_s`: of its sign
   /// where it goes on, and of either for as long as it lasts where the joint turns round. 0 at rest.
-  double friction_along_Nm(double begin_rad_s, double end_rad_s) const noexcept;
+  double friction_along_Nm(double begin_rad_s, double end_rad_s) const noexcept {
+    if (begin_rad_s * end_rad_s >= 0.0) {
+      const double mean_rad_s = 0.5 * (begin_rad_s + end_rad_s);
+      return sign(mean_rad_s) * friction_Nm(mean_rad_s);
+    }
+    const double change_rad_s = std::abs(begin_rad_s) + std::abs(end_rad_s);
+    return (begin_rad_s * friction_Nm(0.5 * begin_rad_s) + end_rad_s * friction_Nm(0.5 * end_rad_s)) /
+           change_rad_s;
+  }
 };
 
 }  // namespace strainwave

@@ -182,14 +182,6 @@ std::optional<std::string> find_outside_box(const GainTable& table, const std::o
   return std::nullopt;
 }
 
-BoxRange links_with_any_stiffness(const CertifiedBox& box) {
-  BoxRange links = box.link_inertia_kgm2;
-  for (const BoxCell& cell : cells_of(box))
-    if (!holds(cell.stiffness_Nm_rad, box.stiffness_Nm_rad))
-      links.from = std::max(links.from, cell.link_inertia_kgm2.to);
-  return links;
-}
-
 std::string describe(const CertifiedBox& box) {
   const std::string delays =
       "delay " + periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +

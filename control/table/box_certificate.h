@@ -48,10 +48,6 @@ ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell);
 std::optional<std::string> find_outside_box(const GainTable& table, const std::optional<LinkModel>& link,
                                             int delay_periods);
 
-/// The links of `box` whose spring may have any stiffness of the box at every instant: those of cells that hold all of it, at every delay.
-/// From the heaviest link, or one beyond, to the heaviest: none.
-BoxRange links_with_any_stiffness(const CertifiedBox& box);
-
 /// The box in words, without its cells.
 std::string describe(const CertifiedBox& box);
 

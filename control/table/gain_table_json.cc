@@ -9,7 +9,7 @@
 #include "base/input_error.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
-#include "control/friction/fuzzy_friction_json.h"
+#include "control/friction/friction_json.h"
 
 namespace strainwave {
 

@@ -221,10 +221,11 @@ SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const
   return proof.report();
 }
 
-double spectral_radius(const ProofMatrix& matrix) {
-  if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
+double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
+  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
+  ProofMatrix power = spring_loop(sampled, gain, loop).value;
+  if (!power.allFinite()) return std::numeric_limits<double>::infinity();
   // Gelfand: the limit of |H^n|^(1/n), n = 2^k. Compiling Eigen's solver takes ten seconds.
-  ProofMatrix power = matrix;
   double log_radius = 0.0;
   for (double share = 1.0; share > kSmallestShare; share *= 0.5) {
     const double norm = power.cwiseAbs().maxCoeff();
@@ -234,11 +235,6 @@ double spectral_radius(const ProofMatrix& matrix) {
     power = power.lazyProduct(power).eval();
   }
   return std::exp(log_radius);
-}
-
-double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
-  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-  return spectral_radius(spring_loop(sampled, gain, loop).value);
 }
 
 WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop) {

@@ -66,10 +66,8 @@ struct SpringReport {
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P, int most_inequalities = std::numeric_limits<int>::max());
 
-/// The largest eigenvalue in magnitude, within 1e-10. Not rigorous; infinite where an entry is not finite.
-double spectral_radius(const ProofMatrix& matrix);
-
-/// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous.
+/// The largest eigenvalue of the loop, in magnitude and within 1e-10, r left out: what no proof can be better than. Not rigorous; infinite
+/// where an entry is not finite.
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
 
 /// The corner and gain of `box` with the largest eigenvalue of the loop: above 1 no proof exists. Not rigorous.

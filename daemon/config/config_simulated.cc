@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/input_error.h"
-#include "control/friction/friction_law_json.h"
+#include "control/friction/friction_json.h"
 #include "control/joint/friction_estimate.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/joint/joint_catalogue.h"

@@ -16,5 +16,19 @@ TEST(TableReport, DescribesEveryRuleWithUnits) {
   }
 }
 
+TEST(TableReport, NamesTheLinksWhoseStiffnessMayChangeAtAnyInstant) {
+  CertifiedBox box = testing::shipped_table("csf-17-50-delays").box;
+  EXPECT_NE(stiffness_text(box).find("at any instant with links of 0.0783..0.3 kg m2, with lighter ones"),
+            std::string::npos)
+      << stiffness_text(box);
+  for (BoxCell& cell : box.cells) cell.stiffness_Nm_rad = box.stiffness_Nm_rad;
+  EXPECT_NE(stiffness_text(box).find("with links of 0.05..0.3 kg m2\n"), std::string::npos)
+      << stiffness_text(box);
+  box.cells[0].stiffness_Nm_rad.to *= 0.9;
+  box.cells[0].link_inertia_kgm2 = box.link_inertia_kgm2;
+  EXPECT_NE(stiffness_text(box).find("within a cell only, whatever the link"), std::string::npos)
+      << stiffness_text(box);
+}
+
 }  // namespace
 }  // namespace strainwave
