@@ -119,9 +119,6 @@ std::vector<BoxRange> motors_to_try(const BoxRange& given) {
 
 SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,
                               const SpringRequest& spring, const DesignProgress& progress) {
-  if (spring.most_delay > kMaxBoxDelay)
-    throw InputError("gains", "--delay", std::to_string(spring.most_delay),
-                     "must be at most " + std::to_string(kMaxBoxDelay) + " in a table");
   SpringRequest tried = spring;
   std::string refusal;
   for (const BoxRange& motor : motors_to_try(spring.motor_inertia_kgm2)) {

@@ -85,9 +85,9 @@ SpringRequest spring_request(const SpringOptions& options, const std::string& pl
   const BoxRange delays = parse_range(place, "--delay", options.delay_periods, 0.0);
   request.least_delay = static_cast<int>(delays.from);
   request.most_delay = static_cast<int>(delays.to);
-  if (delays.to > kMaxSpringDelay || delays.from != request.least_delay || delays.to != request.most_delay)
+  if (delays.to > kMaxBoxDelay || delays.from != request.least_delay || delays.to != request.most_delay)
     throw InputError(place, "--delay", options.delay_periods,
-                     "must be whole periods, at most " + std::to_string(kMaxSpringDelay));
+                     "must be whole periods, at most " + std::to_string(kMaxBoxDelay));
   return request;
 }
 

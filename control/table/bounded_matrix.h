@@ -10,11 +10,12 @@
 #include <Eigen/Core>
 
 #include "control/bounded.h"
+#include "control/table/certified_box.h"
 
 namespace strainwave {
 
-/// The largest size of a matrix of a proof.
-inline constexpr int kMaxProofStates = 14;
+/// The largest size of a matrix of a proof: the loop of a box.
+inline constexpr int kMaxProofStates = loop_states(kSpringPlantStates, kMaxBoxDelay, kMaxLeadPeriods);
 using ProofMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxProofStates, kMaxProofStates>;
 

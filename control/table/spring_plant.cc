@@ -135,7 +135,7 @@ BoundedMatrix with_lead(const BoundedMatrix& law, double lead_periods) {
 
 BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop) {
   const int delay_periods = loop.delay_periods;
-  assert(delay_periods >= 0 && delay_periods <= kMaxSpringDelay);
+  assert(delay_periods >= 0 && delay_periods <= kMaxBoxDelay);
   const Eigen::Index plant = loop.plant_states;
   assert(sampled.value.rows() == plant + 1);
   const Eigen::Index n = loop_states(loop.plant_states, delay_periods, loop.lead_periods);

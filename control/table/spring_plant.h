@@ -25,7 +25,6 @@
 #include <array>
 
 #include "control/table/bounded_matrix.h"
-#include "control/table/certified_box.h"
 #include "control/table/gain_table.h"
 
 namespace strainwave {
@@ -38,8 +37,6 @@ struct SpringPlant {
   double damping_Nms_rad = 0.0;     ///< D >= 0
   double viscous_Nms_rad = 0.0;     ///< b >= 0
 };
-
-inline constexpr int kMaxSpringDelay = kMaxProofStates - loop_states(kSpringPlantStates, 0, kMaxLeadPeriods);
 
 /// h [Ac Bc; 0 0], 5 x 5, of a rigid joint 3 x 3, each entry rounded a few times.
 BoundedMatrix spring_generator(const SpringPlant& plant, double period_s);
@@ -55,7 +52,7 @@ ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& chan
 /// The loop that is closed around a joint.
 struct SpringLoop {
   double period_s = 0.0;    ///< > 0
-  int delay_periods = 0;    ///< 0..kMaxSpringDelay
+  int delay_periods = 0;    ///< 0..kMaxBoxDelay
   double decay_rate = 1.0;  ///< r in (0, 1], what a certificate asks for
   EncoderSide encoder_side = EncoderSide::kMotor;
   double lead_periods = 0.0;  ///< n >= 0

@@ -23,7 +23,7 @@ struct ExpectedJoint {
   PlantIdentity plant;            ///< its own inertia, ratio, period
   double torque_limit_Nm = 0.0;   ///< that it delivers; holds where it is below the table's
   std::optional<LinkModel> link;  ///< its spring, where its model has one
-  int delay_periods = 0;          ///< between a torque's computation and its effect, 0..kMaxSpringDelay
+  int delay_periods = 0;          ///< between a torque's computation and its effect, >= 0
   EncoderSide encoder_side = EncoderSide::kMotor;
   bool law_acts =
       true;  ///< false: the drive closes its own loop, and of a table only friction and inertia are used

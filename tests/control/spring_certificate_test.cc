@@ -152,7 +152,7 @@ TEST(SpringCertificate, TheRadiusIsThatOfTheLargestEigenvalue) {
     const SpringPlant plant{0.089, std::exp(any(-4.0, 1.0)), std::exp(any(7.0, 10.5)), any(0.0, 2.0),
                             any(0.0, 5.0)};
     const GainRow gain(any(-1e3, 0.0), any(-3e3, 0.0), any(-60.0, 5.0));
-    const SpringLoop loop{1e-3, i % (kMaxSpringDelay + 1), 1.0};
+    const SpringLoop loop{1e-3, i % (kMaxBoxDelay + 1), 1.0};
     const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
     const ProofMatrix H = spring_loop(sampled, gain, loop).value;
     const double expected = testing::spectral_radius(H);
