@@ -117,7 +117,7 @@ std::string response_charts(const CommissionRecord& record) {
   if (record.response.empty()) return "";
   Chart magnitude{"Magnitude of the response",
                   "frequency, Hz",
-                  "motor velocity over torque, rad/s per N m",
+                  "motor velocity over torque, rad/s per N.m",
                   true,
                   true,
                   {{"measured", {}, false}, {"model", {}, true}}};
@@ -152,7 +152,7 @@ std::string response_charts(const CommissionRecord& record) {
 std::string friction_chart(const CommissionRecord& record, const ReportedDesign& design) {
   if (record.friction.empty()) return "";
   Chart chart{"Friction",      "speed of the joint, rad/s",
-              "friction, N m", false,
+              "friction, N.m", false,
               false,           {{"measured", {}, false}, {"the table's", {}, true}}};
   for (const FrictionAtSpeed& at : record.friction)
     chart.curves[0].points.push_back({at.speed_rad_s, at.torque_Nm.value, at.torque_Nm.half_width_95});
