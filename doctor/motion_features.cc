@@ -60,6 +60,14 @@ void add_friction(const Evidence& evidence, const MotionFit& fit, Features& feat
                     fit.viscous_Nms_rad.value, fit.viscous_Nms_rad.deviation, told->viscous_Nms_rad));
 }
 
+/// What the user configures; empty: the joint is rigid, or the motor alone has more than was measured.
+std::string implied_load(const Evidence& evidence, double inertia_kgm2) {
+  if (!evidence.told.link) return "";
+  const double load_kgm2 = inertia_kgm2 - evidence.told.link->motor_inertia_kgm2;
+  return load_kgm2 > 0.0 ? fmt::format("; with the configured motor, load_inertia_kgm2 is {:.4f}", load_kgm2)
+                         : "";
+}
+
 void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& features) {
   const MotionEstimate& inertia = fit.inertia_kgm2;
   if (inertia.value < -kSure * inertia.deviation)
@@ -77,10 +85,10 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
                           fit.acceleration_rad_s2, 100.0 * share,
                           fit.acceleration_rad_s2 * share / kInertiaKnownShare));
   else
-    features[Feature::kInertia] =
-        ratio_of(inertia.value, *evidence.told.inertia_kgm2, inertia.deviation, kInertiaTolerance,
-                 fmt::format("inertia is {:.4f} +-{:.4f} kg m2, the configuration says {:.4f}", inertia.value,
-                             inertia.deviation, *evidence.told.inertia_kgm2));
+    features[Feature::kInertia] = ratio_of(
+        inertia.value, *evidence.told.inertia_kgm2, inertia.deviation, kInertiaTolerance,
+        fmt::format("inertia is {:.4f} +-{:.4f} kg m2, the configuration says {:.4f}{}", inertia.value,
+                    inertia.deviation, *evidence.told.inertia_kgm2, implied_load(evidence, inertia.value)));
 }
 
 /// By how much the link's inertia winds the gear up, counts of the encoder.
