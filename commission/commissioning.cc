@@ -148,9 +148,9 @@ std::string Commissioning::finish() {
     if (failure.empty()) failure = excitation_->problem();
     excitation_.reset();
   }
-  // What an aborted step has seen is evaluated all the same, but for the fit.
+  // What was seen before an abort may be of one direction or speed alone: only a whole step gives results.
   std::string text;
-  if (failure.empty() || step_ == Step::kBreakaway || step_ == Step::kFriction) text = evaluate();
+  if (failure.empty()) text = evaluate();
   if (!failure.empty()) {
     if (step_ == Step::kDirection && failure.find("the other way") != std::string::npos)
       failure = config_.direction_key + ": " + failure;

@@ -8,6 +8,12 @@
 
 namespace strainwave {
 
+namespace {
+
+constexpr char kControlC = '\x03';
+
+}  // namespace
+
 Interruption::Interruption() : parent_(::getppid()) {
   termios terminal{};
   if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &terminal) != 0) return;
@@ -24,14 +30,14 @@ Interruption::~Interruption() {
 
 const char* Interruption::wait(int timeout_ms) noexcept {
   std::array<pollfd, 2> descriptors{{{signals_.descriptor(), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-  if (::getppid() != parent_) return "the program that began it is gone";
+  if (::getppid() != parent_) return "interrupted: the program that began it is gone";
   if (::poll(descriptors.data(), before_ ? 2 : 1, timeout_ms) <= 0) return nullptr;
-  if (signals_.take()) return "a signal asked for the end";
+  if (signals_.take()) return "interrupted by a signal";
   char key = 0;
   // A terminal that is gone is as good as a key.
-  if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "the terminal is gone";
+  if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "interrupted: the terminal is gone";
   if ((descriptors[1].revents & POLLIN) != 0 && ::read(STDIN_FILENO, &key, 1) >= 0)
-    return "a key was pressed";
+    return key == kControlC ? "interrupted by Ctrl-C" : "interrupted by a key";
   return nullptr;
 }
 

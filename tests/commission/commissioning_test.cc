@@ -268,6 +268,16 @@ TEST(Commissioning, BrakesAndDisablesWhenItIsAbortedAndGoesOnFromThere) {
   EXPECT_GT(second.record().joint_time_s, first.record().joint_time_s);
 }
 
+TEST(Commissioning, KeepsNoFrictionOfAStepThatWasInterrupted) {
+  const RandomJoint joint = random_joint(2);
+  Bench bench(joint);
+  Commissioning first(configure(joint));
+  bench.run(first, "friction", 15'000);
+  EXPECT_EQ(step_of(first.record(), "friction").outcome, StepOutcome::kFailed);
+  EXPECT_TRUE(first.record().friction.empty());
+  EXPECT_TRUE(first.record().breakaway_positive_Nm) << "of the step before";
+}
+
 TEST(Commissioning, RunsEveryStepOfAnotherJoint) {
   CommissionRecord before = whole().commissioning.record();
   before.joint = "wrist";

@@ -107,7 +107,7 @@ TEST_F(CommissionTest, IsEndedByASignalAndKeepsWhatThereIs) {
   ::pthread_sigmask(SIG_BLOCK, &term, nullptr);
   ::raise(SIGTERM);
   EXPECT_EQ(run(kArm), ExitStatus::kInterrupted);
-  EXPECT_EQ(record().problem, "a signal asked for the end");
+  EXPECT_EQ(record().problem, "interrupted by a signal");
 }
 
 TEST_F(CommissionTest, MovesInsideTheLimitsOfConfigurationAndGear) {

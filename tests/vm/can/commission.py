@@ -70,7 +70,7 @@ class Commission(unittest.TestCase):
         self.assertEqual(float(drive.report()['torque_Nm']), 0.0)
         self.assertIsNone(drive.find('heartbeat-lost'))
         found = record('interrupted')
-        self.assertEqual(found['problem'], 'a key was pressed')
+        self.assertEqual(found['problem'], 'interrupted by a key')
         outcomes = {step['name']: step['outcome'] for step in found['steps']}
         self.assertEqual([outcomes[name] for name in ('identity', 'direction', 'breakaway', 'friction', 'motion')],
                          ['done', 'done', 'done', 'done', 'failed'])
