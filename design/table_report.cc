@@ -32,8 +32,7 @@ std::string str(const FixedString<N>& text) {
 BoxRange links_with_any_stiffness(const CertifiedBox& box) {
   BoxRange links = box.link_inertia_kgm2;
   for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {
-    const BoxRange& stiffness = box.cells[i].stiffness_Nm_rad;
-    if (stiffness.from > box.stiffness_Nm_rad.from || stiffness.to < box.stiffness_Nm_rad.to)
+    if (!box.cells[i].stiffness_Nm_rad.holds(box.stiffness_Nm_rad))
       links.from = std::max(links.from, box.cells[i].link_inertia_kgm2.to);
   }
   return links;

@@ -41,10 +41,6 @@ std::vector<double> edges(const BoxRange& whole, std::span<const BoxCell> cells,
   return all;
 }
 
-bool holds(const BoxRange& range, const BoxRange& part) {
-  return range.from <= part.from && range.to >= part.to;
-}
-
 // The first rectangle between edges that no cell of this delay holds.
 std::optional<std::string> find_gap(const CertifiedBox& box, int delay_periods) {
   const std::span<const BoxCell> cells = cells_of(box);
@@ -55,8 +51,8 @@ std::optional<std::string> find_gap(const CertifiedBox& box, int delay_periods) 
       const BoxRange stiffness{K[k - 1], K[k]};
       const BoxRange inertia{J[j - 1], J[j]};
       const bool covered = std::ranges::any_of(cells, [&](const BoxCell& cell) {
-        return cell.delay_periods == delay_periods && holds(cell.stiffness_Nm_rad, stiffness) &&
-               holds(cell.link_inertia_kgm2, inertia);
+        return cell.delay_periods == delay_periods && cell.stiffness_Nm_rad.holds(stiffness) &&
+               cell.link_inertia_kgm2.holds(inertia);
       });
       if (covered) continue;
       const std::string text = "no cell for a delay of " + std::to_string(delay_periods);
@@ -152,7 +148,7 @@ std::optional<std::string> find_spring_outside(const CertifiedBox& box, const Li
   if (!box.link_inertia_kgm2.holds(link.link_inertia_kgm2))
     return outside("joint.load_inertia_kgm2", text_of({link.link_inertia_kgm2, link.link_inertia_kgm2}),
                    text_of(box.link_inertia_kgm2) + " kg m2");
-  if (!holds(box.stiffness_Nm_rad, {least, most}))
+  if (!box.stiffness_Nm_rad.holds(BoxRange{least, most}))
     return outside("the stiffness of joint.gear", text_of({least, most}),
                    text_of(box.stiffness_Nm_rad) + " N m/rad");
   if (link.damping_Nms_rad > 0.0 && !box.damping_Nms_rad.holds(link.damping_Nms_rad))

@@ -17,6 +17,7 @@ struct BoxRange {
   double to = 0.0;  ///< >= from
 
   bool holds(double value) const noexcept { return value >= from && value <= to; }
+  bool holds(const BoxRange& part) const noexcept { return from <= part.from && to >= part.to; }
 };
 
 /// Cells of all delays together, and the delays there may be.

@@ -13,9 +13,7 @@ namespace {
 bool is_covered(const CertifiedBox& box, int delay, const BoxRange& K, const BoxRange& Jl) {
   for (int i = 0; i < box.cell_count; ++i) {
     const BoxCell& cell = box.cells[static_cast<std::size_t>(i)];
-    if (cell.delay_periods == delay && cell.stiffness_Nm_rad.holds(K.from) &&
-        cell.stiffness_Nm_rad.holds(K.to) && cell.link_inertia_kgm2.holds(Jl.from) &&
-        cell.link_inertia_kgm2.holds(Jl.to))
+    if (cell.delay_periods == delay && cell.stiffness_Nm_rad.holds(K) && cell.link_inertia_kgm2.holds(Jl))
       return true;
   }
   const auto inside = [](const BoxRange& range, double edge) { return edge > range.from && edge < range.to; };

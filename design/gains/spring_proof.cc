@@ -137,10 +137,6 @@ bool cut(const SpringBox& box, bool keeps_stiffness, std::array<SpringBox, 2>& h
   return true;
 }
 
-}  // namespace
-
-namespace {
-
 // What is known of a cell before it is cut.
 struct Attempt {
   WorstCorner unstable;

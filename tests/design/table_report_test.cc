@@ -21,6 +21,9 @@ TEST(TableReport, NamesTheLinksWhoseStiffnessMayChangeAtAnyInstant) {
   EXPECT_NE(stiffness_text(box).find("at any instant with links of 0.0783..0.3 kg m2, with lighter ones"),
             std::string::npos)
       << stiffness_text(box);
+  const std::string wider_motor = stiffness_text(testing::shipped_table("csf-17-50").box);
+  EXPECT_NE(wider_motor.find("at any instant with links of 0.1225..0.3 kg m2"), std::string::npos)
+      << wider_motor;
   for (BoxCell& cell : box.cells) cell.stiffness_Nm_rad = box.stiffness_Nm_rad;
   EXPECT_NE(stiffness_text(box).find("with links of 0.05..0.3 kg m2\n"), std::string::npos)
       << stiffness_text(box);
