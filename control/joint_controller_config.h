@@ -39,7 +39,8 @@ struct JointControllerConfig {
   EncoderSide encoder_side = EncoderSide::kMotor;
   DriveMode drive_mode = DriveMode::kTorque;
   bool drive_closes_loop() const noexcept { return closes_loop(drive_mode); }
-  /// Of a drive's own loop of position, 0..period_s: how old the velocity is that it compares with the one that it is ordered.
+  /// Of a drive's own loop of position, 0..period_s: how old the velocity is that it compares with the one that it is ordered, and how
+  /// much later the torque acts that it is fed. 0 where the loop is the daemon's.
   double drive_loop_period_s = 0.0;
   /// Of link and payload. Loads that are known otherwise come on top.
   GravityLoad gravity;

@@ -67,6 +67,7 @@ double JointPlan::begin_plan(double reading_rad, double velocity_rad_s) noexcept
   plan_.position_rad = plan_.acting_end_position_rad = motor_rad;
   plan_.link_position_rad = reading_rad;
   plan_.velocity_rad_s = velocity_rad_s;
+  plan_.torque_Nm = config_.gravity.at(reading_rad);
   return planner_.reset(motor_rad, velocity_rad_s);
 }
 
@@ -128,8 +129,10 @@ void JointPlan::advance(const PlannedJoint& joint) noexcept {
   const auto available_Nm = [&](double along_rad_s) {
     return std::min(joint.torque_limit_Nm, config_.motor.available_Nm(along_rad_s));
   };
+  const double last_Nm = plan_.torque_Nm;
   plan_ = planner_.step(
       planned, {-available_Nm(-speed_rad_s) - taken_Nm, available_Nm(speed_rad_s) - taken_Nm}, taken_Nm);
+  change_Nm_ = plan_.torque_Nm - last_Nm;
   if (moves()) corrections_.motion();
 }
 
@@ -177,7 +180,9 @@ double JointPlan::torque_Nm(const PlannedJoint& joint) const noexcept {
   const double share = config_.without == Mechanism::kFriction ? 0.0 : 1.0 + corrections_.friction_share();
   const double friction_Nm =
       0.5 * (joint.model.friction_along_Nm(begin, middle) + joint.model.friction_along_Nm(middle, end));
-  return plan_.torque_Nm + share * friction_Nm + load_Nm +
+  // A drive's torque acts a period of its loop later. The step of friction at a reversal cannot be foreseen from the last change.
+  const double later_Nm = config_.drive_loop_period_s / config_.period_s * change_Nm_;
+  return plan_.torque_Nm + later_Nm + share * friction_Nm + load_Nm +
          load.inertia_kgm2 * plan_.wanted_acceleration_rad_s2;
 }
 

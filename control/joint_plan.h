@@ -86,6 +86,7 @@ class JointPlan {
   MotorPlanner planner_;
   RestCorrections corrections_;
   MotorPlan plan_;
+  double change_Nm_ = 0.0;  ///< of the plan's torque, in this period
   MotionLimits motion_;     ///< the configuration's, and this order's speed
   double pace_ = 1.0;       ///< of accelerations, in (0, 1]
   bool speeds_up_ = false;  ///< the trajectory, in this period

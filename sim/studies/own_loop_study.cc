@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kBusPeriod_s = 1e-3;
 constexpr std::array<const char*, 4> kNames = {"alone", "plan", "wind-up", "all offsets"};
+/// Of delay, for which a drive is tuned that has a margin.
+constexpr double kMargin_periods = 1.0;
 
 JointPlantConfig plant_at(double rate_Hz) {
   JointPlantConfig plant = temperature_plant();
@@ -33,16 +35,23 @@ JointControllerConfig controller_config(JointPlantConfig plant, const GainTable&
   return config;
 }
 
+ServoJoint tuned_joint(const JointPlantConfig& plant, DriveTuning tuning) {
+  ServoJoint joint = servo_joint(plant);
+  if (tuning == DriveTuning::kMargin) joint.delay_periods += kMargin_periods;
+  return joint;
+}
+
 /// The daemon, the bus, the drive's interpolation, and its cascade. An order acts a period of the bus after the reading that it is made of,
 /// and is reached at the end of that period.
 class OwnLoop final : public LoopController {
  public:
-  OwnLoop(const JointPlantConfig& plant, const GainTable& table, const SmoothPath& path, Told told)
+  OwnLoop(const JointPlantConfig& plant, const GainTable& table, const SmoothPath& path, Told told,
+          DriveTuning tuning)
       : told_(told),
         path_(path),
         steps_(static_cast<int>(std::lround(kBusPeriod_s / plant.period_s))),
         daemon_(controller_config(plant, table, told), table, path, {}),
-        cascade_(servo_joint(plant), true) {}
+        cascade_(tuned_joint(plant, tuning), true) {}
 
   double torque_Nm(const LoopSample& sample) noexcept override {
     if (tick_ == 0) {
@@ -107,10 +116,11 @@ double mean_rms_rad(const JointPlantConfig& plant, const FrictionWay& way, doubl
 
 }  // namespace
 
-FrictionWay own_loop_way(const GainTable& table, Told told) {
-  return {kNames[static_cast<std::size_t>(told)],
-          [table, told](const JointPlantConfig& plant, const SmoothPath& path, double) {
-            return std::make_unique<OwnLoop>(plant, table, path, told);
+FrictionWay own_loop_way(const GainTable& table, Told told, DriveTuning tuning) {
+  std::string name = kNames[static_cast<std::size_t>(told)];
+  if (tuning == DriveTuning::kMargin) name += ", margin";
+  return {name, [table, told, tuning](const JointPlantConfig& plant, const SmoothPath& path, double) {
+            return std::make_unique<OwnLoop>(plant, table, path, told, tuning);
           }};
 }
 
@@ -119,7 +129,8 @@ std::vector<OwnLoopRow> run_own_loops(const FlexibleTables& tables) {
   std::vector<FrictionWay> ways{friction_ways(tables).back()};
   ways.front().name = "torque mode";
   for (const Told told : {Told::kNothing, Told::kPlan, Told::kWindUp, Told::kAllOffsets})
-    ways.push_back(own_loop_way(table, told));
+    ways.push_back(own_loop_way(table, told, DriveTuning::kFast));
+  ways.push_back(own_loop_way(table, Told::kAllOffsets, DriveTuning::kMargin));
   struct Job {
     const FrictionWay* way;
     OwnLoopRow row;
@@ -128,7 +139,8 @@ std::vector<OwnLoopRow> run_own_loops(const FlexibleTables& tables) {
   for (const double temperature_C : kOwnLoopTemperatures_C)
     for (const FrictionWay& way : ways)
       for (const double rate_Hz : kDriveRates_Hz)
-        if (&way != &ways.front() || rate_Hz == kDriveRates_Hz.front())
+        // Faster drives are tuned by the joint's resonance, which the margin does not change.
+        if ((&way != &ways.front() && &way != &ways.back()) || rate_Hz == kDriveRates_Hz.front())
           jobs.push_back({&way, {way.name, rate_Hz, temperature_C, 0.0, 0.0}});
   run_in_parallel(jobs.size(), [&](std::size_t i) {
     OwnLoopRow& row = jobs[i].row;

@@ -6,6 +6,7 @@
 //   plan           the daemon's plan of a rigid joint: position and velocity
 //   wind-up        the plan with the gear's spring: the motor's position and velocity
 //   all offsets    that, and the torque that plan, friction and load need
+//   margin         all offsets, and the drive's loops are tuned for a period of delay more than there is, as the daemon's gains are
 //   torque mode    the daemon's own law, certified
 #pragma once
 
@@ -21,11 +22,16 @@ namespace strainwave {
 /// What the drive is given.
 enum class Told { kNothing, kPlan, kWindUp, kAllOffsets };
 
+enum class DriveTuning {
+  kFast,   ///< for the delay that there is
+  kMargin  ///< for a period more
+};
+
 inline constexpr std::array<double, 3> kDriveRates_Hz = {1000.0, 4000.0, 8000.0};
 inline constexpr std::array<double, 2> kOwnLoopTemperatures_C = {-10.0, 30.0};
 
 /// The cascade behind a bus of 1 kHz. The plant's period is the drive's.
-FrictionWay own_loop_way(const GainTable& table, Told told);
+FrictionWay own_loop_way(const GainTable& table, Told told, DriveTuning tuning);
 
 struct OwnLoopRow {
   std::string way;

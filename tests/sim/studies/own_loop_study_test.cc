@@ -12,11 +12,12 @@ namespace {
 
 TEST(OwnLoopStudy, EachPartOfTheOrderMakesTheDriveBetter) {
   std::map<std::tuple<std::string, double, double>, double> rms_rad;
-  constexpr double kGoal =
-      1.3;  // of a drive faster than the bus with all offsets: torque mode's error, cold and warm
+  // Of a drive with all offsets, faster than the bus or tuned with a margin: torque mode's error, cold and warm.
+  constexpr double kGoal = 1.3;
   for (const OwnLoopRow& row : run_own_loops(read_flexible_tables(STRAINWAVE_SOURCE_DIR "/data/tables"))) {
     rms_rad[{row.way, row.rate_Hz, row.temperature_C}] = row.rms_rad;
-    if (row.way == "all offsets" && row.rate_Hz > kDriveRates_Hz.front()) {
+    const bool faster = row.way == "all offsets" && row.rate_Hz > kDriveRates_Hz.front();
+    if (faster || row.way == "all offsets, margin") {
       EXPECT_LT(row.over_torque_mode, kGoal) << row.temperature_C << " degC, " << row.rate_Hz << " Hz";
     }
   }
