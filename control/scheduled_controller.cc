@@ -20,8 +20,7 @@ double velocity_error_rad_s(const ControllerInput& input) noexcept {
 
 ScheduledController::ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
                                          const PlantIdentity& plant, double lead_periods) noexcept
-    : memberships_(friction),
-      zero_weight_(friction.velocity),
+    : friction_(friction),
       zero_velocity_gain_(gains.gain(0)),
       period_s_(plant.period_s),
       lead_periods_(lead_periods),
@@ -38,7 +37,7 @@ ScheduledController::ScheduledController(const FeedbackGains& gains, const Fuzzy
 }
 
 void ScheduledController::set_temperature(double temperature_C) noexcept {
-  weights_ = memberships_.weights(temperature_C);
+  weights_ = friction_.weights(temperature_C);
   high_velocity_gain_.setZero();
   for (std::size_t i = 0; i < static_cast<std::size_t>(weights_.count); ++i)
     high_velocity_gain_ += weights_.weight[i] * rules_[i];
@@ -48,7 +47,7 @@ ScheduledController::Terms ScheduledController::evaluate(const ControllerInput& 
   const StateVector x{integral_rad_s_, position_error_rad(input), velocity_error_rad_s(input)};
   if (!scheduled_) return {zero_velocity_gain_.dot(x), zero_velocity_gain_(0), 1.0};
 
-  const double zero_weight = zero_weight_.at(input.joint_velocity_rad_s);
+  const double zero_weight = friction_.velocity.zero_weight(input.joint_velocity_rad_s);
   const double at_zero_Nm = zero_velocity_gain_.dot(x);
   const double at_speed_Nm = high_velocity_gain_.dot(x);
   return {at_speed_Nm + zero_weight * (at_zero_Nm - at_speed_Nm),
@@ -102,7 +101,7 @@ void ScheduledController::reset() noexcept {
 
 double ScheduledController::integral_torque_Nm() const noexcept {
   if (!scheduled_) return zero_velocity_gain_(0) * integral_rad_s_;
-  const double zero_weight = zero_weight_.at(0.0);
+  const double zero_weight = friction_.velocity.zero_weight(0.0);
   return (zero_weight * zero_velocity_gain_(0) + (1.0 - zero_weight) * high_velocity_gain_(0)) *
          integral_rad_s_;
 }

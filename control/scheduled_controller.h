@@ -95,8 +95,7 @@ class ScheduledController {
   double lead_in(const ControllerInput& input) const noexcept;
 
   std::array<GainRow, kMaxTemperatureRules> rules_{};  ///< F_i
-  TemperatureMemberships memberships_;
-  ZeroVelocityWeight zero_weight_;
+  FuzzyFriction friction_;
   GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; of a controller without temperature its only gain
   double period_s_ = 0.0;
   double lead_periods_ = 0.0;

@@ -2,15 +2,38 @@
 #include "control/friction/fuzzy_friction.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
 
 namespace strainwave {
 
 double VelocityMemberships::zero_weight(double velocity_rad_s) const noexcept {
-  return ZeroVelocityWeight(*this).at(velocity_rad_s);
+  const double speed_rad_s = std::abs(velocity_rad_s);
+  const double beyond_zero = std::max(0.0, speed_rad_s - zero_center_rad_s) * (1.0 / zero_width_rad_s);
+  const double below_high = std::max(0.0, high_center_rad_s - speed_rad_s) * (1.0 / high_width_rad_s);
+  // The quotient of the two is taken inside one exponential, so that neither can underflow.
+  return 1.0 / (1.0 + std::exp(beyond_zero * beyond_zero - below_high * below_high));
 }
 
+// Relative to the nearest rule's, which has 1, so that far from every centre they are never 0/0.
 TemperatureWeights FuzzyFriction::weights(double temperature_C) const noexcept {
-  return TemperatureMemberships(*this).weights(temperature_C);
+  assert(rule_count >= 1 && rule_count <= kMaxTemperatureRules);
+  TemperatureWeights result;
+  result.count = rule_count;
+  const std::span mu = std::span(result.weight).first(static_cast<std::size_t>(rule_count));
+  const double clamped_C = std::clamp(temperature_C, temperature_min_C, temperature_max_C);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mu.size(); ++i) {
+    const double distance = (clamped_C - rules[i].center_C) * (1.0 / rules[i].width_C);
+    mu[i] = distance * distance;
+    nearest = std::min(nearest, mu[i]);
+  }
+  double sum = 0.0;
+  for (double& weight : mu) sum += weight = std::exp(nearest - weight);
+  for (double& weight : mu) weight *= 1.0 / sum;
+  return result;
 }
 
 FrictionParameters FuzzyFriction::blend(const TemperatureWeights& weights) const noexcept {

@@ -10,9 +10,16 @@
 #include <cstdint>
 
 #include "control/friction/friction.h"
-#include "control/friction/memberships.h"
 
 namespace strainwave {
+
+inline constexpr int kMaxTemperatureRules = 16;
+
+/// Normalised memberships of layer 1: each >= 0, sum 1 over the first `count`.
+struct TemperatureWeights {
+  std::array<double, kMaxTemperatureRules> weight{};
+  std::int32_t count = 0;
+};
 
 /// One rule of layer 1: "if T is about center_C, friction is ...". width_C > 0.
 struct TemperatureRule {
@@ -32,7 +39,7 @@ struct VelocityMemberships {
   /// The Stribeck curve that these memberships stand for: half of the width of "zero", squared in the exponent. With Zhao's memberships
   /// (2006, section 3) that is the catalogue's Stribeck velocity, 20 RPM of the motor.
   constexpr StribeckShape stribeck() const noexcept { return {0.5 * zero_width_rad_s, 2.0}; }
-  /// alpha_0; see ZeroVelocityWeight, which the loop keeps prepared.
+  /// alpha_0 = mu_zero / (mu_zero + mu_high), in (0, 1), even in velocity.
   double zero_weight(double velocity_rad_s) const noexcept;
 };
 
@@ -45,7 +52,7 @@ struct FuzzyFriction {
   double temperature_min_C = 0.0;  ///< Range the rules were fitted over; temperatures are clamped to it.
   double temperature_max_C = 0.0;
 
-  /// Memberships at `temperature_C`; see TemperatureMemberships, which the loop keeps prepared.
+  /// Normalised memberships at `temperature_C`, which is clamped to the range first; it must not be NaN.
   TemperatureWeights weights(double temperature_C) const noexcept;
 
   /// Layer 1: the friction parameters blended by `weights`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/friction/memberships.h"
+#include "control/friction/fuzzy_friction.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 
-#include "control/friction/fuzzy_friction.h"
 #include "control/table/gain_table_json.h"
 
 namespace strainwave {
@@ -40,9 +39,8 @@ TEST(Memberships, WeightsSumToOneAndLieBetweenZeroAndOneOverTheWholeRangeOfDoubl
   for (const char* table : {"c1", "c2", "c3", "c4", "rhs17-6006"}) {
     const FuzzyFriction friction =
         read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + table + ".json").friction;
-    const TemperatureMemberships memberships(friction);
     for (const double temperature_C : whole_range())
-      expect_partition(memberships.weights(temperature_C), temperature_C);
+      expect_partition(friction.weights(temperature_C), temperature_C);
   }
 }
 
@@ -58,33 +56,30 @@ TEST(Memberships, WeightsSumToOneForRandomRulesHoweverNarrow) {
     friction.temperature_max_C = 60.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i)
       friction.rules[i] = {center(random), std::pow(10.0, exponent(random)), {}};
-    const TemperatureMemberships memberships(friction);
     for (const double temperature_C : {-1e308, -20.0, 0.0, 13.7, 60.0, 1e308})
-      expect_partition(memberships.weights(temperature_C), temperature_C);
+      expect_partition(friction.weights(temperature_C), temperature_C);
   }
 }
 
 TEST(Memberships, OutsideTheTableTheTemperatureIsThatOfItsEdge) {
   const FuzzyFriction friction = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json").friction;
-  const TemperatureMemberships memberships(friction);
-  const TemperatureWeights edge = memberships.weights(friction.temperature_max_C);
-  const TemperatureWeights beyond = memberships.weights(1e308);
+  const TemperatureWeights edge = friction.weights(friction.temperature_max_C);
+  const TemperatureWeights beyond = friction.weights(1e308);
   EXPECT_EQ(edge.weight, beyond.weight);
 }
 
 TEST(Memberships, TheZeroVelocityWeightIsEvenFallsWithSpeedAndStaysBetweenZeroAndOne) {
   const FuzzyFriction friction = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json").friction;
-  const ZeroVelocityWeight weight(friction.velocity);
   for (const double velocity_rad_s : whole_range()) {
-    const double here = weight.at(velocity_rad_s);
+    const double here = friction.velocity.zero_weight(velocity_rad_s);
     EXPECT_GE(here, 0.0) << velocity_rad_s;
     EXPECT_LE(here, 1.0) << velocity_rad_s;
-    EXPECT_EQ(here, weight.at(-velocity_rad_s)) << velocity_rad_s;
+    EXPECT_EQ(here, friction.velocity.zero_weight(-velocity_rad_s)) << velocity_rad_s;
   }
   double last = 1.0;
   for (double speed_rad_s = 0.0; speed_rad_s < 2.0; speed_rad_s += 0.003) {
-    EXPECT_LE(weight.at(speed_rad_s), last) << speed_rad_s;
-    last = weight.at(speed_rad_s);
+    EXPECT_LE(friction.velocity.zero_weight(speed_rad_s), last) << speed_rad_s;
+    last = friction.velocity.zero_weight(speed_rad_s);
   }
 }
 
