@@ -67,8 +67,7 @@ double share_of_velocity(const JointControllerConfig& config) noexcept {
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
       plan_(config),
-      law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config),
-           config.link.has_value()),
+      law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config)),
       reading_(config.period_s, share_of_velocity(config), count_of(config)),
       oscillation_(config.period_s) {}
 

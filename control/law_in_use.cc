@@ -22,7 +22,7 @@ double largest_gain_Nm_rad(const GainTable& table, double velocity_by_rad) noexc
 
 void LawInUse::load(const GainTable& table) noexcept {
   keep_outgoing();
-  const double lead_periods = on_spring_ ? table.box.lead_periods : 0.0;
+  const double lead_periods = table.box.lead_periods;
   primary_ = ScheduledController(table.primary, table.friction, table.plant, lead_periods);
   fallback_ = ScheduledController(table.fallback, table.friction, table.plant, lead_periods);
   if (temperature_C_) primary_.set_temperature(*temperature_C_);

@@ -4,7 +4,7 @@
 //   change of gains   bumpless transfer: the integral is chosen so that the next torque is what the gains before it would have given
 //                       u'(x, integral') = u(x, integral)
 //   a count makes     resolution max_i (|F_i1| + |F_i2| share / T) (1 + n)
-//   a lead n          the table's, on a joint with a spring; it begins anew after interrupt()
+//   a lead n          the table's, 0 on a rigid joint; it begins anew after interrupt()
 #pragma once
 
 #include <optional>
@@ -16,14 +16,11 @@ namespace strainwave {
 
 class LawInUse {
  public:
-  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as JointReading has it. `on_spring`: the law has its
-  /// table's lead.
-  LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0,
-           bool on_spring = false) noexcept
+  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as JointReading has it.
+  LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0) noexcept
       : period_s_(period_s),
         encoder_resolution_rad_(encoder_resolution_rad),
-        velocity_share_(velocity_share),
-        on_spring_(on_spring) {}
+        velocity_share_(velocity_share) {}
 
   /// Takes a table that has passed find_defect().
   void load(const GainTable& table) noexcept;
@@ -68,7 +65,6 @@ class LawInUse {
   double period_s_;
   double encoder_resolution_rad_;
   double velocity_share_;
-  bool on_spring_;
   ScheduledController primary_;
   ScheduledController fallback_;
   std::optional<ScheduledController>

@@ -14,13 +14,13 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "base/text_file.h"
-#include "control/joint/joint_catalogue.h"
 #include "design/friction/catalogue.h"
 #include "design/friction/descending_curve.h"
 #include "design/friction/estimation.h"
 #include "design/friction/fit_checks.h"
 #include "design/friction/friction_file.h"
 #include "design/friction/ordered_memberships.h"
+#include "design/joint_defaults.h"
 
 namespace strainwave {
 

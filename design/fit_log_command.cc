@@ -8,12 +8,12 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "base/text_file.h"
-#include "control/joint/joint_catalogue.h"
 #include "design/friction/friction_file.h"
 #include "design/friction/friction_fit.h"
 #include "design/friction/friction_log.h"
 #include "design/friction/sha256.h"
 #include "design/friction/student.h"
+#include "design/joint_defaults.h"
 
 namespace strainwave {
 

@@ -8,7 +8,6 @@
 #include "base/input_error.h"
 #include "base/text_file.h"
 #include "commission/commission_record.h"
-#include "control/joint/joint_catalogue.h"
 #include "design/friction/friction_file.h"
 #include "design/friction/friction_update.h"
 #include "design/friction/sha256.h"

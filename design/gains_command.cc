@@ -59,7 +59,7 @@ std::vector<std::string> gear_list() {
 
 /// The gear that is asked for, else that of the reference case.
 const Gear& gear_of(const GainsOptions& options) {
-  return *find_gear(options.gear.empty() ? joint_catalogue().front().gear : options.gear);
+  return *find_gear(options.gear.empty() ? catalogue_joint().gear : options.gear);
 }
 
 /// As given, else the gear's. Throws InputError when a gear has another ratio than the one given.

@@ -19,31 +19,43 @@ constexpr const char* kEstimatedFriction = "friction: estimate from the catalogu
 // Where it is certified at once, for sizes 25 and 32, stiffer gains change little; size 14 ends at 6e-6.
 constexpr double kStiffWeight = 1e-9;
 
-const CatalogueJoint* find_actuator(const Gear& gear, const std::string& joint_model) {
-  const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear.name);
-  return joint != nullptr && joint->model == joint_model ? joint : nullptr;
+bool has_actuator(const Gear& gear) {
+  return gear.name == catalogue_joint().gear;
 }
 
-std::string origin(const CatalogueJoint& joint) {
+bool is_actuator(const Gear& gear, const std::string& joint_model) {
+  return has_actuator(gear) && joint_model == catalogue_joint().model;
+}
+
+std::string actuator_origin() {
+  const CatalogueJoint& joint = catalogue_joint();
   return "of " + joint.model + ", the catalogue's actuator with " + joint.gear;
+}
+
+// The speeds of the memberships are the motor's as well.
+void scale_to(const Gear& gear, double ratios, FuzzyFriction& rules) {
+  for (TemperatureRule& rule : rules.rules) rule.friction = estimate_friction(gear, rule.friction);
+  VelocityMemberships& velocity = rules.velocity;
+  for (double* speed_rad_s : {&velocity.zero_center_rad_s, &velocity.zero_width_rad_s,
+                              &velocity.high_center_rad_s, &velocity.high_width_rad_s})
+    *speed_rad_s /= ratios;
 }
 
 }  // namespace
 
 std::string usual_model(const Gear& gear) {
-  const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear.name);
-  return joint != nullptr ? joint->model : gear.name;
+  return has_actuator(gear) ? catalogue_joint().model : gear.name;
 }
 
 CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_model) {
-  const double known_ratio = find_gear(joint_catalogue().front().gear)->ratio;
+  const double known_ratio = find_gear(catalogue_joint().gear)->ratio;
   CatalogueFriction friction{friction_rules_from_json(kCatalogueFrictionJson, kFrictionFile, known_ratio), "",
                              kFrictionFile};
-  if (const CatalogueJoint* const joint = find_actuator(gear, joint_model)) {
-    friction.origin += ", " + origin(*joint);
+  if (is_actuator(gear, joint_model)) {
+    friction.origin += ", " + actuator_origin();
     return friction;
   }
-  friction.rules.friction = estimate_friction(gear, friction.rules.friction);
+  scale_to(gear, gear.ratio / known_ratio, friction.rules.friction);
   friction.note = kEstimatedFriction;
   friction.origin =
       "an estimate from the catalogue of gears, expect half to twice; measure it with strainwavectl identify";
@@ -66,7 +78,7 @@ std::string friction_doubt(const FuzzyFriction& given, const Gear* gear) {
 }
 
 double usual_torque_weight(const Gear& gear, double actuators) {
-  return find_catalogue_joint_with_gear(gear.name) != nullptr ? actuators : kStiffWeight;
+  return has_actuator(gear) ? actuators : kStiffWeight;
 }
 
 MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, const std::string& joint_model,
@@ -79,8 +91,7 @@ MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, con
   if (rotor_kgm2)
     return {(*rotor_kgm2 + gear->wave_generator_inertia_kgm2) * gear->ratio * gear->ratio,
             "of the rotor and " + wave_generator + ", times " + number_text(gear->ratio) + " squared"};
-  if (const CatalogueJoint* const joint = find_actuator(*gear, joint_model))
-    return {joint->motor_inertia_kgm2, origin(*joint)};
+  if (is_actuator(*gear, joint_model)) return {catalogue_joint().motor_inertia_kgm2, actuator_origin()};
   throw InputError(place + ": which motor drives " + gear->name +
                    "? Give its rotor's inertia from its data sheet, gains --rotor-inertia_kgm2, to which " +
                    wave_generator + " is added; or give --motor-inertia_kgm2, of both at the joint");

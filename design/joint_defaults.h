@@ -6,12 +6,18 @@
 #include <string>
 
 #include "control/joint/gear_catalogue.h"
+#include "control/units.h"
 #include "design/friction/friction_file.h"
 
 namespace strainwave {
 
 /// The model of the catalogue's actuator with `gear`, else the gear's own name.
 std::string usual_model(const Gear& gear);
+
+/// The Stribeck curve of the catalogue's friction, joint side: 20 RPM at the motor, exponent 2 (data/README.md).
+inline StribeckShape source_stribeck_shape(double gear_ratio) {
+  return {joint_velocity_rad_s_from_motor_rpm(20.0, gear_ratio), 2.0};
+}
 
 /// Friction of a joint with `gear`: what is fitted to the catalogue's actuator where `joint_model` is it, else the estimate of
 /// control/joint/friction_estimate.h, which `note` says.

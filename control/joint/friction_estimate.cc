@@ -32,27 +32,17 @@ Factors factors_of(const Gear& gear, const Gear& known, const FrictionParameters
 }
 
 double ratio_to_known(const Gear& gear) {
-  return gear.ratio / find_gear(joint_catalogue().front().gear)->ratio;
+  return gear.ratio / find_gear(catalogue_joint().gear)->ratio;
 }
 
 }  // namespace
 
 FrictionParameters estimate_friction(const Gear& gear, const FrictionParameters& rhs17) {
-  const CatalogueJoint& known = joint_catalogue().front();
+  const CatalogueJoint& known = catalogue_joint();
   const Factors factors = factors_of(gear, *find_gear(known.gear), known.friction_at(kStated_C, 1.0));
   const double ratio = ratio_to_known(gear);
   return {ratio * factors.coulomb * rhs17.static_Nm, ratio * factors.coulomb * rhs17.coulomb_Nm,
           ratio * ratio * factors.viscous * rhs17.viscous_Nms_rad};
-}
-
-FuzzyFriction estimate_friction(const Gear& gear, FuzzyFriction rhs17) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(rhs17.rule_count); ++i)
-    rhs17.rules[i].friction = estimate_friction(gear, rhs17.rules[i].friction);
-  VelocityMemberships& velocity = rhs17.velocity;
-  for (double* speed_rad_s : {&velocity.zero_center_rad_s, &velocity.zero_width_rad_s,
-                              &velocity.high_center_rad_s, &velocity.high_width_rad_s})
-    *speed_rad_s /= ratio_to_known(gear);
-  return rhs17;
 }
 
 FrictionLaw estimate_friction(const Gear& gear, FrictionLaw rhs17) {

@@ -11,16 +11,12 @@
 #pragma once
 
 #include "control/friction/friction.h"
-#include "control/friction/fuzzy_friction.h"
 #include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 
 /// Friction of `gear` at the joint where that of the RHS-17-6006, at its joint, is `rhs17`. Linear in `rhs17`: also for the parts of a law.
 FrictionParameters estimate_friction(const Gear& gear, const FrictionParameters& rhs17);
-
-/// The same of rules fitted to the RHS-17-6006; the speeds of their memberships are the motor's as well.
-FuzzyFriction estimate_friction(const Gear& gear, FuzzyFriction rhs17);
 
 /// The same of a law.
 FrictionLaw estimate_friction(const Gear& gear, FrictionLaw rhs17);

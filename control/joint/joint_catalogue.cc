@@ -49,21 +49,11 @@ FrictionParameters CatalogueJoint::friction_at(double temperature_C, double gear
           gear_ratio * gear_ratio * std::lerp(from.viscous_Nms_rad, to.viscous_Nms_rad, share)};
 }
 
-const std::vector<CatalogueJoint>& joint_catalogue() {
+const CatalogueJoint& catalogue_joint() {
   // Its gear is of size 17 and ratio 50 (data/README.md).
-  static const std::vector<CatalogueJoint> joints{
-      {"rhs17-6006", "csf-17-50", read_datasheet("inertia_at_output"), read_points()}};
-  return joints;
-}
-
-const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear) {
-  for (const CatalogueJoint& joint : joint_catalogue())
-    if (joint.gear == gear) return &joint;
-  return nullptr;
-}
-
-StribeckShape source_stribeck_shape(double gear_ratio) {
-  return {joint_velocity_rad_s_from_motor_rpm(20.0, gear_ratio), 2.0};
+  static const CatalogueJoint joint{"rhs17-6006", "csf-17-50", read_datasheet("inertia_at_output"),
+                                    read_points()};
+  return joint;
 }
 
 }  // namespace strainwave

@@ -20,11 +20,6 @@ struct MotorData {
   double back_emf_Vs_rad = 0.0;       ///< Ke >= 0
   double resistance_ohm = 0.0;        ///< R; 0: not known
   double supply_V = 0.0;              ///< V; 0: not known
-
-  /// Heat of holding a torque, R / Kt^2.
-  constexpr double winding_loss_W_Nm2() const noexcept {
-    return resistance_ohm / (torque_constant_Nm_A * torque_constant_Nm_A);
-  }
 };
 
 /// The motor's limits as a line over speed; by default none. The winding's inductance is not in it.

@@ -46,18 +46,6 @@ struct TorsionSpring {
     return std::copysign(angle, torque_Nm);
   }
 
-  /// Energy in J stored at a wind-up of `angle_rad`: the integral of the torque.
-  double energy_J(double angle_rad) const noexcept {
-    const double torque = std::abs(torque_Nm(angle_rad));
-    const double first = std::min(torque, torque_1_Nm);
-    const double second = std::clamp(torque, torque_1_Nm, torque_2_Nm);
-    const double third = std::max(torque, torque_2_Nm);
-    // Over each slope the energy is the difference of torque^2 / 2K.
-    return 0.5 * (first * first / stiffness_1_Nm_rad +
-                  (second * second - torque_1_Nm * torque_1_Nm) / stiffness_2_Nm_rad +
-                  (third * third - torque_2_Nm * torque_2_Nm) / stiffness_3_Nm_rad);
-  }
-
   /// Slope of the straight line from rest to `torque_Nm` > 0, N.m/rad.
   double secant_Nm_rad(double torque_Nm) const noexcept { return torque_Nm / angle_rad(torque_Nm); }
 };

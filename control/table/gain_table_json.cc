@@ -2,6 +2,7 @@
 #include "control/table/gain_table_json.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -17,8 +18,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* kForwardEulerName = "forward-euler";
-constexpr const char* kZeroOrderHoldName = "zero-order-hold";
+constexpr std::array kSamplings{"forward-euler", "zero-order-hold"};
 
 ordered_json plant_to_json(const PlantIdentity& plant) {
   return {{"joint_model", plant.joint_model.view()},
@@ -50,15 +50,14 @@ ordered_json gains_to_json(const FeedbackGains& gains) {
 
 ordered_json provenance_to_json(const Provenance& provenance) {
   const bool euler = provenance.sampling == Sampling::kForwardEuler;
-  return {{"sampling", euler ? kForwardEulerName : kZeroOrderHoldName},
+  return {{"sampling", kSamplings[euler ? 0 : 1]},
           {"created_utc", provenance.created_utc.view()},
           {"tool", provenance.tool.view()},
           {"friction_sha256", provenance.friction_sha256.view()},
           {"note", provenance.note.view()}};
 }
 
-constexpr const char* kRigidName = "rigid";
-constexpr const char* kSpringName = "spring";
+constexpr std::array kJoints{"rigid", "spring"};
 
 ordered_json range_to_json(const BoxRange& range) {
   return {range.from, range.to};
@@ -76,7 +75,7 @@ ordered_json cell_to_json(const CertifiedBox& box, const BoxCell& cell) {
 }
 
 ordered_json box_to_json(const CertifiedBox& box) {
-  ordered_json document = {{"joint", box.rigid() ? kRigidName : kSpringName},
+  ordered_json document = {{"joint", kJoints[box.rigid() ? 0 : 1]},
                            {"encoder_side", to_text(box.encoder_side)}};
   if (!box.rigid()) {
     document["motor_inertia_kgm2"] = range_to_json(box.motor_inertia_kgm2);
@@ -93,12 +92,11 @@ ordered_json box_to_json(const CertifiedBox& box) {
 }
 
 /// One of two names.
-bool is_first(StrictObject& object, const std::string& key, const std::string& first,
-              const std::string& second) {
+bool is_first(StrictObject& object, const std::string& key, const std::array<const char*, 2>& names) {
   const std::string value = object.text(key, 32);
-  if (value != first && value != second)
-    throw InputError(object.where(key) + " = " + value + ": must be " + first + " or " + second);
-  return value == first;
+  if (value != names[0] && value != names[1])
+    throw InputError(object.where(key) + " = " + value + ": must be " + names[0] + " or " + names[1]);
+  return value == names[0];
 }
 
 BoxRange range_from_json(StrictObject& object, const std::string& key) {
@@ -127,9 +125,9 @@ BoxCell cell_from_json(StrictObject& object, const CertifiedBox& box) {
 
 CertifiedBox box_from_json(StrictObject object) {
   CertifiedBox box;
-  const bool rigid = is_first(object, "joint", kRigidName, kSpringName);
+  const bool rigid = is_first(object, "joint", kJoints);
   const bool motor =
-      is_first(object, "encoder_side", to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink));
+      is_first(object, "encoder_side", {to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink)});
   box.encoder_side = motor ? EncoderSide::kMotor : EncoderSide::kLink;
   if (!rigid) {
     box.motor_inertia_kgm2 = range_from_json(object, "motor_inertia_kgm2");
@@ -194,7 +192,7 @@ FeedbackGains gains_from_json(StrictObject object) {
 
 Provenance provenance_from_json(StrictObject object) {
   Provenance provenance;
-  const bool euler = is_first(object, "sampling", kForwardEulerName, kZeroOrderHoldName);
+  const bool euler = is_first(object, "sampling", kSamplings);
   provenance.sampling = euler ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
   provenance.created_utc = text_field<32>(object, "created_utc");
   provenance.tool = text_field<32>(object, "tool");

@@ -67,10 +67,6 @@ double SmoothWindUp::compliance_rad_Nm(double torque_Nm) const noexcept {
   return far_rad_Nm_ + extra_rad_Nm_ / (1.0 + scaled * scaled);
 }
 
-bool MotorPlanner::possible(const MotorPlannerConfig& config) noexcept {
-  return swing_periods(config) <= 2 * kMaxMeanPeriods;
-}
-
 MotionLimits MotorPlanner::possible_limits(const MotorPlannerConfig& config) noexcept {
   MotionLimits limits = config.motion;
   if (!config.jerk_limit_rad_s3) return limits;

@@ -83,8 +83,6 @@ class MotorPlanner {
   /// Not real-time safe.
   explicit MotorPlanner(const MotorPlannerConfig& config) noexcept;
 
-  /// Whether the spring is stiff enough for the joint's period and slow enough for its memory: tau within the moving means.
-  static bool possible(const MotorPlannerConfig& config) noexcept;
   /// `motion` with accelerations under which the means are long enough for the jerk limit: at most jerk * longest tau / 4.
   static MotionLimits possible_limits(const MotorPlannerConfig& config) noexcept;
 

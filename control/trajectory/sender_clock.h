@@ -57,8 +57,6 @@ class SenderClock {
     offset_ += late / messages_;
     held_up_ = false;
   }
-  /// A clock that shows this stands still.
-  bool repeats(std::int64_t sent_us) const noexcept { return messages_ > 0 && sent_us == last_us_; }
   /// Periods from the first message's sending to the last one's; rises with the sender's clock, whatever is learned of the way.
   double sent() const noexcept { return sent_; }
   /// sent() + offset(): the period of ours in which one that takes as long as most do would have come.

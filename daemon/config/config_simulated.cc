@@ -94,8 +94,7 @@ void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
 // Of a gear by its name, or of a file. Where neither is given it is the joint's own gear, else that of the reference joint.
 FrictionLaw read_friction(TomlSection& section, const std::filesystem::path& folder,
                           const PlantIdentity& plant, const FrictionLaw& reference) {
-  const std::string own =
-      plant.gear.view().empty() ? joint_catalogue().front().gear : std::string(plant.gear.view());
+  const std::string own = plant.gear.view().empty() ? catalogue_joint().gear : std::string(plant.gear.view());
   const std::string text = section.text_or("friction", own);
   if (const Gear* const gear = find_gear(text)) return estimate_friction(*gear, reference);
   if (!text.ends_with(".json"))

@@ -171,6 +171,22 @@ double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
   return Equations(joint, input, state.current_Nm, 0.0).motor_Nm(state.current_Nm, vector_of(state));
 }
 
+namespace {
+
+// What the spring stores at a wind-up: over each slope the difference of torque^2 / 2K.
+double stored_energy_J(const TorsionSpring& spring, double wind_up_rad) noexcept {
+  const double torque_Nm = std::abs(spring.torque_Nm(wind_up_rad));
+  const double first_Nm = std::min(torque_Nm, spring.torque_1_Nm);
+  const double second_Nm = std::clamp(torque_Nm, spring.torque_1_Nm, spring.torque_2_Nm);
+  const double third_Nm = std::max(torque_Nm, spring.torque_2_Nm);
+  return 0.5 *
+         (first_Nm * first_Nm / spring.stiffness_1_Nm_rad +
+          (second_Nm * second_Nm - spring.torque_1_Nm * spring.torque_1_Nm) / spring.stiffness_2_Nm_rad +
+          (third_Nm * third_Nm - spring.torque_2_Nm * spring.torque_2_Nm) / spring.stiffness_3_Nm_rad);
+}
+
+}  // namespace
+
 double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
   const auto square = [](double x) { return x * x; };
   double energy_J = 0.5 * joint.motor.inertia_kgm2 * square(state.motor.velocity_rad_s);
@@ -184,7 +200,7 @@ double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& stat
   const JointInput nothing;
   const double wind_up_rad = Equations(joint, nothing, 0.0, 0.0).wind_up_rad(vector_of(state));
   return energy_J + 0.5 * gear.link_inertia_kgm2 * square(state.link.velocity_rad_s) +
-         gear.spring.energy_J(wind_up_rad) +
+         stored_energy_J(gear.spring, wind_up_rad) +
          0.5 * gear.spring.stiffness_1_Nm_rad * square(state.lost_motion_rad);
 }
 

@@ -46,7 +46,8 @@ constexpr ThermalParameters reference_thermal() {
 inline JointPlantConfig ideal_plant() {
   JointPlantConfig config;
   config.joint = reference_joint();
-  config.winding_loss_W_Nm2 = reference_motor().winding_loss_W_Nm2();
+  constexpr MotorData kMotor = reference_motor();
+  config.winding_loss_W_Nm2 = kMotor.resistance_ohm / square(kMotor.torque_constant_Nm_A);
   return config;
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "control/joint/joint_catalogue.h"
-#include "control/table/gain_table_json.h"
 #include "control/units.h"
 
 namespace strainwave {
@@ -16,7 +15,7 @@ const Gear& gear_named(const std::string& name) {
 
 /// The RHS-17-6006's at its joint.
 FrictionParameters known(double temperature_C) {
-  return joint_catalogue().front().friction_at(temperature_C, 50.0);
+  return catalogue_joint().friction_at(temperature_C, 50.0);
 }
 
 /// Of a turning motor, at the motor.
@@ -68,25 +67,13 @@ TEST(FrictionEstimate, IsFrictionOfEveryGearAndGrowsWithSizeAndCold) {
   }
 }
 
-TEST(FrictionEstimate, OfRulesAndOfALawIsThatOfTheirParameters) {
+TEST(FrictionEstimate, OfALawIsThatOfItsParameters) {
   const Gear& gear = gear_named("csf-25-100");
-  const FuzzyFriction rules = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json").friction;
-  const FuzzyFriction estimate = estimate_friction(gear, rules);
-  ASSERT_EQ(estimate.rule_count, rules.rule_count);
-  for (const double temperature_C : {-12.0, 0.0, 25.0}) {
-    const FrictionParameters blend = estimate.blend(estimate.weights(temperature_C));
-    const FrictionParameters expected = estimate_friction(gear, rules.blend(rules.weights(temperature_C)));
-    EXPECT_NEAR(blend.static_Nm, expected.static_Nm, 1e-9);
-    EXPECT_NEAR(blend.viscous_Nms_rad, expected.viscous_Nms_rad, 1e-9);
-  }
-  EXPECT_DOUBLE_EQ(estimate.velocity.stribeck().velocity_rad_s,
-                   0.5 * rules.velocity.stribeck().velocity_rad_s)
-      << "the same speed of the motor";
   const FrictionLaw law{{{40.0, 30.0, 8.0}, {100.0, 90.0, 20.0}, 5.0, 12.0}, {0.04, 2.0}};
   const FrictionLaw same = estimate_friction(gear, law);
   EXPECT_NEAR(same.over_temperature.at(15.0).coulomb_Nm,
               estimate_friction(gear, law.over_temperature.at(15.0)).coulomb_Nm, 1e-9);
-  EXPECT_DOUBLE_EQ(same.stribeck.velocity_rad_s, 0.02);
+  EXPECT_DOUBLE_EQ(same.stribeck.velocity_rad_s, 0.02) << "the same speed of the motor";
 }
 
 }  // namespace

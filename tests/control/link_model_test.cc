@@ -23,10 +23,11 @@ double momentum_Nms(const LinkModel& joint, const LinkState& at) {
          joint.link_inertia_kgm2 * at.link_velocity_rad_s;
 }
 
+// On one slope.
 double energy_J(const LinkModel& joint, const LinkState& at) {
   return 0.5 * joint.motor_inertia_kgm2 * at.motor_velocity_rad_s * at.motor_velocity_rad_s +
          0.5 * joint.link_inertia_kgm2 * at.link_velocity_rad_s * at.link_velocity_rad_s +
-         joint.spring.energy_J(at.motor_position_rad - at.link_position_rad);
+         0.5 * joint.spring.stiffness_1_Nm_rad * std::pow(at.motor_position_rad - at.link_position_rad, 2);
 }
 
 TEST(LinkModel, TakesUpTheTorquesMomentumAndNothingElse) {

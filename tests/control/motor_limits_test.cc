@@ -114,9 +114,5 @@ TEST(ReachableLimits, LeaveATrickleUnderALoadThatNothingCanMove) {
   EXPECT_GT(stuck.deceleration_rad_s2, 0.0);
 }
 
-TEST(MotorData, SaysWhatHeatHoldingATorqueCosts) {
-  EXPECT_NEAR(kMotor.winding_loss_W_Nm2() * 9.6 * 9.6, 4.8, 1e-12) << "one ampere through 4.8 ohm";
-}
-
 }  // namespace
 }  // namespace strainwave

@@ -228,11 +228,6 @@ TEST(MotorPlanner, GoesOnFromAJointThatMoves) {
   }
 }
 
-TEST(MotorPlanner, IsNotForASpringThatIsSofterThanItsMemory) {
-  EXPECT_TRUE(MotorPlanner::possible(config_for(1.0, 1000.0)));
-  EXPECT_FALSE(MotorPlanner::possible(config_for(1.0, 10.0)));
-}
-
 TEST(SmoothWindUp, IsTheGearsFarOutAndSofterNearZero) {
   const TorsionSpring spring{8100.0, 3.9, 11000.0, 12.0, 13000.0};
   const SmoothWindUp smooth(spring);

@@ -20,14 +20,5 @@ TEST(TorsionSpring, IsContinuousOddAndItsOwnInverse) {
   EXPECT_NEAR(spring.angle_rad(10.0), 1.04e-3, 0.01e-3) << "the wind-up at 10 N.m";
 }
 
-TEST(TorsionSpring, StoresTheIntegralOfItsTorque) {
-  const TorsionSpring spring = find_gear("csf-17-50")->spring;
-  double energy_J = 0.0;
-  constexpr double kStep_rad = 1e-7;
-  for (int i = 0; i < 30000; ++i) energy_J += kStep_rad * spring.torque_Nm((i + 0.5) * kStep_rad);
-  EXPECT_NEAR(spring.energy_J(30000 * kStep_rad), energy_J, 1e-9 * energy_J);
-  EXPECT_EQ(spring.energy_J(-1e-3), spring.energy_J(1e-3));
-}
-
 }  // namespace
 }  // namespace strainwave

@@ -11,11 +11,11 @@
 
 #include "base/text_file.h"
 #include "client/commands/identify_plan.h"
-#include "control/joint/joint_catalogue.h"
 #include "design/friction/friction_file.h"
 #include "design/friction/friction_fit.h"
 #include "design/friction/friction_update.h"
 #include "design/gains/controller_design.h"
+#include "design/joint_defaults.h"
 #include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {
