@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/positive_definite.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,9 +17,6 @@ using bounded_detail::kHalfUlp;
 // of ours.
 constexpr double kLargestEntry = 0x1p400;
 constexpr double kSmallestDiagonal = 0x1p-400;
-
-// Halvings of the range in which the smallest eigenvalue lies: to 1e-12 of its width.
-constexpr int kHalvings = 40;
 
 struct Balanced {
   ProofMatrix matrix;
@@ -78,27 +76,6 @@ bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
   return true;
 }
 
-ProofMatrix shifted(ProofMatrix matrix, int size, double shift) noexcept {
-  for (int i = 0; i < size; ++i) matrix(i, i) -= shift;
-  return matrix;
-}
-
-// The largest shift at which Cholesky succeeds, within the circles of Gershgorin. Compiling Eigen's solver takes longer than the rest of
-// the proofs.
-double smallest_eigenvalue(const ProofMatrix& matrix, int size) noexcept {
-  double low = matrix(0, 0);
-  double high = low;
-  for (int i = 0; i < size; ++i) {
-    low = std::min(low, 2.0 * matrix(i, i) - matrix.row(i).cwiseAbs().sum());
-    high = std::min(high, matrix(i, i));
-  }
-  for (int halving = 0; halving < kHalvings; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (cholesky_succeeds(shifted(matrix, size, middle), size) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace
 
 PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const ProofMatrix& error,
@@ -118,7 +95,8 @@ PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const P
   if (!shifted.allFinite()) return result;
 
   result.certain = cholesky_succeeds(shifted, size);
-  const double estimate = smallest_eigenvalue(balanced.matrix, size) - shift;
+  const Eigen::SelfAdjointEigenSolver<ProofMatrix> solver(balanced.matrix, Eigen::EigenvaluesOnly);
+  const double estimate = solver.eigenvalues()(0) - shift;
   // The estimate has its own rounding; Cholesky decides the sign.
   result.margin =
       result.certain ? std::max(estimate, std::numeric_limits<double>::min()) : std::min(estimate, 0.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/spring_certificate.h"
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <iomanip>
@@ -15,9 +16,6 @@ namespace {
 
 constexpr std::size_t kDimensions = 5;  // stiffness, 1 / Jl, damping, viscous friction, 1 / Jm
 constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
-
-// Of a norm in the radius: what is left out of that is below 1e-10.
-constexpr double kSmallestShare = 0x1p-40;
 
 template <typename Box>
 auto& range_of(Box& box, std::size_t dimension) {
@@ -89,32 +87,13 @@ SpringCorners spring_corners(const SpringBox& box, double period_s) {
   return result;
 }
 
-namespace {
-
-// Gauss and Jordan, without pivots: of a matrix that is positive definite. Approximate.
-ProofMatrix inverse(ProofMatrix matrix) {
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    const double pivot = matrix(k, k);
-    matrix(k, k) = 1.0;
-    matrix.row(k) /= pivot;
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      if (i == k) continue;
-      const double share = matrix(i, k);
-      matrix(i, k) = 0.0;
-      matrix.row(i) -= share * matrix.row(k);
-    }
-  }
-  return matrix;
-}
-
-}  // namespace
-
 // Any l > 0 proves; this one makes both terms as large, in the fall's own norm.
 BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate) {
   const Eigen::Index n = P.value.rows();
   const BoundedMatrix middle(H.value);
   const BoundedMatrix PH = P * middle;
-  const ProofMatrix by_fall = inverse(P.value - by_rate.value * H.value.transpose().lazyProduct(PH.value));
+  const ProofMatrix fall_of_middle = P.value - by_rate.value * H.value.transpose().lazyProduct(PH.value);
+  const ProofMatrix by_fall = fall_of_middle.inverse();
   ProofMatrix a = ProofMatrix::Zero(n, n);
   ProofMatrix b = ProofMatrix::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -223,18 +202,9 @@ SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const
 
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
   const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-  ProofMatrix power = spring_loop(sampled, gain, loop).value;
-  if (!power.allFinite()) return std::numeric_limits<double>::infinity();
-  // Gelfand: the limit of |H^n|^(1/n), n = 2^k. Compiling Eigen's solver takes ten seconds.
-  double log_radius = 0.0;
-  for (double share = 1.0; share > kSmallestShare; share *= 0.5) {
-    const double norm = power.cwiseAbs().maxCoeff();
-    if (norm == 0.0) return 0.0;
-    log_radius += share * std::log(norm);
-    power /= norm;
-    power = power.lazyProduct(power).eval();
-  }
-  return std::exp(log_radius);
+  const ProofMatrix H = spring_loop(sampled, gain, loop).value;
+  if (!H.allFinite()) return std::numeric_limits<double>::infinity();
+  return Eigen::EigenSolver<ProofMatrix>(H, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop) {

@@ -66,7 +66,7 @@ struct SpringReport {
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P, int most_inequalities = std::numeric_limits<int>::max());
 
-/// The largest eigenvalue of the loop, in magnitude and within 1e-10, r left out: what no proof can be better than. Not rigorous; infinite
+/// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous; infinite
 /// where an entry is not finite.
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
 
