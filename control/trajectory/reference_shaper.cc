@@ -50,23 +50,12 @@ double ReferenceShaper::largest_stoppable_velocity(double distance_rad,
   return speed_step * (whole + beyond / (whole + 1.0));
 }
 
-// In the direction of the target: `velocity` < 0 moves away from it.
-double ReferenceShaper::next_velocity_rad_s(double to_target_rad) const noexcept {
+// From which the joint can stop on its target. It may be beyond what the limits allow.
+double ReferenceShaper::wanted_velocity_rad_s() const noexcept {
+  const double to_target_rad = target_rad_ - position_rad_;
   const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
-  const double velocity = direction * velocity_rad_s_;
-  const double speed_up = period_s_ * limits_.acceleration_rad_s2;
-  const double slow_down = period_s_ * limits_.deceleration_rad_s2;
-
-  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
-                                                      limits_.deceleration_rad_s2);
-  if (velocity < 0.0) {
-    // A sample that turns round has one acceleration, so both limits hold in it.
-    const double turned = velocity + std::min(speed_up, slow_down);
-    if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
-    return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
-  }
-  const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
-  return direction * std::max({wanted, velocity - slow_down, 0.0});
+  const double left_rad = std::abs(to_target_rad) - 0.5 * period_s_ * direction * velocity_rad_s_;
+  return direction * largest_stoppable_velocity(left_rad, limits_.deceleration_rad_s2);
 }
 
 // What the limits allow of a wanted velocity: accelerations, the range, the speed, in the order in which they give way.
@@ -131,7 +120,7 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
 
 Reference ReferenceShaper::step() noexcept {
   double velocity =
-      stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s(target_rad_ - position_rad_);
+      stopping_ ? brake_to_rest(velocity_rad_s_) : possible_velocity_rad_s(wanted_velocity_rad_s(), {});
   double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
 
   if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {

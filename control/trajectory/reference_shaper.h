@@ -72,7 +72,7 @@ class ReferenceShaper {
   double velocity_rad_s() const noexcept { return velocity_rad_s_; }
 
  private:
-  double next_velocity_rad_s(double to_target_rad) const noexcept;
+  double wanted_velocity_rad_s() const noexcept;
   double nearing_rad_s(const MovingTarget& target) const noexcept;
   double brake_to_rest(double velocity_rad_s) const noexcept;
   double largest_stoppable_velocity(double distance_rad, double deceleration_rad_s2) const noexcept;
