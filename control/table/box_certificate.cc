@@ -71,13 +71,8 @@ std::string outside(const char* quantity, const std::string& value, const std::s
 
 SpringLoop loop_of(const GainTable& table, int delay_periods) {
   const CertifiedBox& box = table.box;
-  return {table.plant.period_s,
-          delay_periods,
-          1.0,
-          box.encoder_side,
-          box.lead_periods,
-          box.plant_states(),
-          table.primary.has_integrator != 0};
+  return {table.plant.period_s, delay_periods,      box.encoder_side,
+          box.lead_periods,     box.plant_states(), table.primary.has_integrator != 0};
 }
 
 ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell) {

@@ -88,11 +88,11 @@ SpringCorners spring_corners(const SpringBox& box, double period_s) {
 }
 
 // Any l > 0 proves; this one makes both terms as large, in the fall's own norm.
-BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate) {
+BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H) {
   const Eigen::Index n = P.value.rows();
   const BoundedMatrix middle(H.value);
   const BoundedMatrix PH = P * middle;
-  const ProofMatrix fall_of_middle = P.value - by_rate.value * H.value.transpose().lazyProduct(PH.value);
+  const ProofMatrix fall_of_middle = P.value - H.value.transpose().lazyProduct(PH.value);
   const ProofMatrix by_fall = fall_of_middle.inverse();
   ProofMatrix a = ProofMatrix::Zero(n, n);
   ProofMatrix b = ProofMatrix::Zero(n, n);
@@ -107,10 +107,10 @@ BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const B
     }
   }
   const BoundedMatrix twice = middle.transpose() + PH.transpose() * BoundedMatrix(BoundedMatrix::kUp * a);
-  BoundedMatrix fall = P - by_rate * (twice * PH + BoundedMatrix(BoundedMatrix::kUp * b));
+  BoundedMatrix fall = P - (twice * PH + BoundedMatrix(BoundedMatrix::kUp * b));
   const ProofMatrix of_P = P.magnitude().lazyProduct(H.error);
   const ProofMatrix second = H.error.transpose().lazyProduct(of_P);
-  fall.error = BoundedMatrix::kUp * (fall.error + BoundedMatrix::kUp * by_rate.value * second);
+  fall.error = BoundedMatrix::kUp * (fall.error + second);
   return fall;
 }
 
@@ -152,8 +152,7 @@ class BoxProof {
   int states() const { return static_cast<int>(P_.value.rows()); }
 
   PositiveDefiniteResult test(const BoundedMatrix& sampled, const GainRow& gain) {
-    const Bounded by_rate = Bounded(1.0) / (Bounded(loop_.decay_rate) * loop_.decay_rate);
-    const BoundedMatrix fall = least_fall(P_, spring_loop(sampled, gain, loop_), by_rate);
+    const BoundedMatrix fall = least_fall(P_, spring_loop(sampled, gain, loop_));
     ++report_.inequalities;
     return test_positive_definite(fall.value, fall.error, states());
   }

@@ -2,10 +2,10 @@
 // The certificate of gains on a joint, rigid or with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
 // the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
 //
-//   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, 1/Jm, j)
+//   P - H' P H > 0,   P > 0        H = H(K, 1/Jl, D, b, 1/Jm, j)
 //
 // for every stiffness K, link inertia Jl, damping D, viscous friction b and motor inertia Jm of the box and every gain j. Then V = x' P x
-// falls by r^2 each sample, however these and the blend of the gains change from one sample to the next. That covers a spring of several slopes,
+// falls with each sample, however these and the blend of the gains change from one sample to the next. That covers a spring of several slopes,
 // friction that changes, and a temperature that is taken for any other. Within a sample they stand still.
 //
 // Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D, b and 1/Jm, so that its exponential is what interpolates those of the
@@ -51,8 +51,8 @@ struct SpringCorners {
 };
 SpringCorners spring_corners(const SpringBox& box, double period_s);
 
-/// No more, as a symmetric matrix, than P - H' P H by_rate for any H within its errors. P exact, `by_rate` = 1 / r^2.
-BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate);
+/// No more, as a symmetric matrix, than P - H' P H for any H within its errors. P exact.
+BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H);
 
 struct SpringReport {
   bool certified = false;
@@ -66,7 +66,7 @@ struct SpringReport {
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P, int most_inequalities = std::numeric_limits<int>::max());
 
-/// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous; infinite
+/// The largest eigenvalue of the loop, in magnitude: what no proof can be better than. Not rigorous; infinite
 /// where an entry is not finite.
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
 

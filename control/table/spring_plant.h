@@ -51,9 +51,8 @@ ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& chan
 
 /// The loop that is closed around a joint.
 struct SpringLoop {
-  double period_s = 0.0;    ///< > 0
-  int delay_periods = 0;    ///< 0..kMaxBoxDelay
-  double decay_rate = 1.0;  ///< r in (0, 1], what a certificate asks for
+  double period_s = 0.0;  ///< > 0
+  int delay_periods = 0;  ///< 0..kMaxBoxDelay
   EncoderSide encoder_side = EncoderSide::kMotor;
   double lead_periods = 0.0;  ///< n >= 0
   int plant_states = kSpringPlantStates;

@@ -46,8 +46,7 @@ std::vector<Eigen::MatrixXd> loops_of(std::span<const GainRow> gains, const Spri
                                       const SpringLoop& loop) {
   std::vector<Eigen::MatrixXd> loops;
   for (const SpringCorner& corner : spring_corners(box, loop.period_s).corners)
-    for (const GainRow& gain : gains)
-      loops.emplace_back(spring_loop(corner.sampled, gain, loop).value / loop.decay_rate);
+    for (const GainRow& gain : gains) loops.emplace_back(spring_loop(corner.sampled, gain, loop).value);
   return loops;
 }
 
@@ -147,7 +146,7 @@ struct Attempt {
 Attempt attempt(std::span<const GainRow> gains, const SpringBox& cell, bool whole_stiffness,
                 const SpringLoop& loop) {
   Attempt result{worst_corner(gains, cell, loop), {}, false};
-  if (!(result.unstable.radius < loop.decay_rate)) return result;
+  if (!(result.unstable.radius < 1.0)) return result;
   result.P = find_spring_lyapunov(gains, cell, loop);
   result.keeps_stiffness = !result.P && whole_stiffness && may_change_stiffness(gains, cell, loop);
   return result;
@@ -182,7 +181,7 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
     const Attempt result = next->attempt.get();
     proof.cell = next->box;
     proof.unstable = result.unstable;
-    if (!(result.unstable.radius < loop.decay_rate)) {
+    if (!(result.unstable.radius < 1.0)) {
       proof.outcome = SpringOutcome::kUnstable;
       return proof;
     }

@@ -17,7 +17,7 @@
 namespace strainwave {
 namespace {
 
-const SpringLoop kLoop{1e-3, 1, 1.0};
+const SpringLoop kLoop{1e-3, 1};
 const std::array<GainRow, 1> kGains{GainRow(-310.0, -990.0, -21.0)};
 const SpringBox kBox{{0.0889, 0.0891}, {0.0999, 0.1001}, {9990.0, 10010.0}, {0.5, 0.51}, {0.0, 0.01}};
 
@@ -81,7 +81,7 @@ TEST(SpringCertificate, TheLeastFallIsBelowThatOfEveryLoopWithinTheErrors) {
   for (const double size : {1e-6, 1e-5, 1e-4}) {
     for (Eigen::Index i = 1; i <= 4; ++i)
       for (Eigen::Index j = 1; j <= 4; ++j) H.error(i, j) = size * std::abs(H.value(i, j));
-    const BoundedMatrix least = least_fall(P, H, 1.0);
+    const BoundedMatrix least = least_fall(P, H);
     for (int trial = 0; trial < 500; ++trial) {
       const bool ends = trial % 2 == 0;
       const ProofMatrix shares = ProofMatrix::NullaryExpr(
@@ -94,7 +94,7 @@ TEST(SpringCertificate, TheLeastFallIsBelowThatOfEveryLoopWithinTheErrors) {
   }
 }
 
-TEST(SpringCertificate, RefusesAWiderBoxALongerDelayAndAFasterDecay) {
+TEST(SpringCertificate, RefusesAWiderBoxAndALongerPeriod) {
   const ProofMatrix P = lyapunov(kBox);
   SpringBox wider = kBox;
   wider.stiffness_Nm_rad = {1000.0, 40000.0};
@@ -105,15 +105,14 @@ TEST(SpringCertificate, RefusesAWiderBoxALongerDelayAndAFasterDecay) {
   wider = kBox;
   wider.motor_inertia_kgm2 = {0.02, 0.089};
   EXPECT_FALSE(certify(kGains, wider, kLoop, P).certified);
-  EXPECT_FALSE(certify(kGains, kBox, {1e-3, 1, 0.9}, P).certified);
-  EXPECT_FALSE(certify(kGains, kBox, {1e-2, 1, 1.0}, P).certified);
+  EXPECT_FALSE(certify(kGains, kBox, {1e-2, 1}, P).certified);
 }
 
 // With two periods of delay the velocity of two readings excites what it damps with one: no proof could say otherwise.
 TEST(SpringCertificate, TheSecondPeriodOfDelayDrivesAStiffSpringWithoutDamping) {
   const SpringPlant light{0.089, 0.05, 13000.0, 0.0, 0.0};
-  EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1, 1.0}), 1.0);
-  EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2, 1.0}), 1.02);
+  EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1}), 1.0);
+  EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2}), 1.02);
 }
 
 // What docs/flexible-joint.md says of the corner at which the box of this table is thin.
@@ -121,7 +120,7 @@ TEST(SpringCertificate, TheDelaysTableHasLittleBesideItsBoxWhereAStiffSpringIsNo
   const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
   const std::vector<GainRow> gains = gains_of(table);
   const SpringPlant corner{0.089, 0.05, 13000.0, 0.0, 0.0};
-  const SpringLoop loop{1e-3, 2, 1.0, EncoderSide::kMotor, 2.0};
+  const SpringLoop loop{1e-3, 2, EncoderSide::kMotor, 2.0};
   const auto radius = [&](const SpringPlant& plant) {
     const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
     double largest = 0.0;
@@ -140,27 +139,6 @@ TEST(SpringCertificate, TheDelaysTableHasLittleBesideItsBoxWhereAStiffSpringIsNo
     other.link_inertia_kgm2 = share * corner.link_inertia_kgm2;
     EXPECT_EQ(radius(other) > 1.0, grows) << share << radius(other);
   }
-}
-
-TEST(SpringCertificate, TheRadiusIsThatOfTheLargestEigenvalue) {
-  std::mt19937_64 random(12);
-  const auto any = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  int unstable = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const SpringPlant plant{0.089, std::exp(any(-4.0, 1.0)), std::exp(any(7.0, 10.5)), any(0.0, 2.0),
-                            any(0.0, 5.0)};
-    const GainRow gain(any(-1e3, 0.0), any(-3e3, 0.0), any(-60.0, 5.0));
-    const SpringLoop loop{1e-3, i % (kMaxBoxDelay + 1), 1.0};
-    const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-    const ProofMatrix H = spring_loop(sampled, gain, loop).value;
-    const double expected = testing::spectral_radius(H);
-    ASSERT_NEAR(spring_loop_radius(plant, gain, loop), expected, 1e-8 * expected) << i;
-    if (expected > 1.0) ++unstable;
-  }
-  EXPECT_GT(unstable, 100);
-  EXPECT_LT(unstable, 900);
 }
 
 // What lies between the corners is lost where they are far apart, and is found when the box is cut: the errors fall by four.

@@ -177,7 +177,7 @@ TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
       // The first sample has no change.
       if (lead != 0.0) x(6 + delay) = kGain(1) * x(5);
       const ProofMatrix E = sampled(kJoint).value;
-      const ProofMatrix H = spring_loop(sampled(kJoint), kGain, {kPeriod_s, delay, 1.0, side, lead}).value;
+      const ProofMatrix H = spring_loop(sampled(kJoint), kGain, {kPeriod_s, delay, side, lead}).value;
       std::deque<double> under_way(static_cast<std::size_t>(delay), 0.0);
       double largest = 0.0;
       for (int k = 0; k < 400; ++k) {

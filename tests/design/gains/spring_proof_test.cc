@@ -13,7 +13,7 @@
 namespace strainwave {
 namespace {
 
-constexpr SpringLoop kLoop{1e-3, 1, 1.0};
+constexpr SpringLoop kLoop{1e-3, 1};
 
 GainTable table_of_the_study() {
   return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
@@ -56,7 +56,7 @@ TEST(SpringProof, ATableWithOneEntryDestroyedIsRefused) {
 
 TEST(SpringProof, ASecondPeriodOfDelayIsNamedUnstableWithItsCorner) {
   const GainTable table = table_of_the_study();
-  const SpringProof proof = prove_spring_box(gains_of(table), box_of(table, {0.05, 0.3}), {1e-3, 2, 1.0});
+  const SpringProof proof = prove_spring_box(gains_of(table), box_of(table, {0.05, 0.3}), {1e-3, 2});
   EXPECT_EQ(proof.outcome, SpringOutcome::kUnstable);
   EXPECT_GT(proof.unstable.radius, 1.02);
   EXPECT_EQ(proof.unstable.plant.stiffness_Nm_rad, 13000.0);
