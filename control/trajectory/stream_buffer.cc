@@ -18,9 +18,7 @@ constexpr double kLongest_s = 0.2;
 constexpr double kApart_s = 0.01;
 constexpr int kBefore = 8;  ///< neighbours, and ...
 constexpr int kAfter = 2;   ///< ... after the sample
-// A jerk that changes the acceleration by less than this share of the limit in an interval is the motion's own.
-constexpr double kSmooth = 0.1;
-// So long a smooth motion is carried on with its jerk: intervals, and at least a time.
+// So long a motion is carried on with its jerk: intervals, and at least a time.
 constexpr double kCarriedIntervals = 2.5;
 constexpr double kCarried_s = 0.06;
 // Beyond this multiple of the joint's limits a sample is no part of a motion.
@@ -28,7 +26,6 @@ constexpr double kNewPlace = 2.0;
 // A velocity contradicts where it misses what the positions show by this share of both, and by counts.
 constexpr double kContradicts = 0.5;
 constexpr double kContradictsCounts = 3.0;
-constexpr int kContradictions = 4;
 constexpr double kContradicts_s = 0.025;  // longer than a burst of samples that were held up
 // A motion that ends is at its place: far below an encoder's count, and what the torque shows of it.
 constexpr double kAtRest_rad = 1e-9;
@@ -42,7 +39,6 @@ void StreamBuffer::begin(double position_rad, double velocity_rad_s, double lead
   lead_ = lead_periods;
   origin_ = 0.0;
   interval_ = 10.0;
-  contradictions_ = 0;
   sender_.forget();
   resume(position_rad, velocity_rad_s, load);
 }
@@ -73,8 +69,7 @@ void StreamBuffer::insert(Knot knot) noexcept {
     interval_ = std::clamp(knot.at - last().at, 1.0, 1.5 * interval_ + 5.0);
     knot.new_place = is_new_place(knot);
     knot.contradicts = knot.is_contradicted_by(last(), config_);
-    contradictions_ = std::clamp(contradictions_ + (knot.contradicts ? 1 : -1), 0, kContradictions);
-    if (contradictions_ == 0 || (knot.contradicts && contradictions_ == 1)) contradicts_from_ = knot.at;
+    if (!knot.contradicts || !last().contradicts) contradicts_from_ = knot.at;
   }
   if (count_ == kSamples) {
     first_ = (first_ + 1) % kSamples;
@@ -139,8 +134,7 @@ SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& re
   lead_on();
   // What was held up and then sent all at once contradicts, too, but not for long.
   const bool for_long = seconds(last().at - contradicts_from_) >= kContradicts_s;
-  if (last().contradicts && contradictions_ == kContradictions && for_long)
-    return SampleFate::kVelocitiesContradict;
+  if (last().contradicts && for_long) return SampleFate::kVelocitiesContradict;
   return late ? SampleFate::kLate : SampleFate::kInTime;
 }
 
@@ -222,12 +216,9 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
 // The motion of the anchor: with its acceleration for some time, then with the velocity of that.
 StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
   const State& s = anchor_.state;
-  const double interval_s = seconds(interval_);
-  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * reach_.acceleration_rad_s2;
-  const double jerk = smooth ? s.jerk_rad_s3 : 0.0;
+  const double jerk = s.jerk_rad_s3;
   const double since_s = seconds(at - anchor_.at);
-  const double t =
-      std::min(since_s, smooth ? std::max(kCarriedIntervals * interval_s, kCarried_s) : interval_s);
+  const double t = std::min(since_s, std::max(kCarriedIntervals * seconds(interval_), kCarried_s));
   const double acceleration = s.acceleration_rad_s2 + t * jerk;
   const double velocity = s.velocity_rad_s + t * (s.acceleration_rad_s2 + 0.5 * t * jerk);
   const double position =
@@ -283,19 +274,6 @@ MovingTarget StreamBuffer::step() noexcept {
   move_to(play());
   const State& end = state_.state;
   return {begin.position_rad, begin.velocity_rad_s, end.position_rad, end.velocity_rad_s, state_.load};
-}
-
-void StreamBuffer::skip(std::int64_t periods) noexcept {
-  now_ += static_cast<double>(periods);
-  left_out_ = 0.0;
-  if (count_ == 0) return;
-  const std::size_t next = first_from(play());
-  anchor_ = derived(next > 0 ? next - 1 : 0);
-  to_ = anchor_;
-  to_.at = play();
-  to_.state = carried(play());
-  from_ = to_;
-  move_to(play());
 }
 
 }  // namespace strainwave

@@ -52,8 +52,6 @@ class StreamBuffer {
   }
   /// Samples that come now come so many periods after the one that the next step() begins: the loop left them out.
   void leave_out(std::int64_t periods) noexcept { left_out_ = static_cast<double>(periods); }
-  /// Periods went by in which the joint was not led: the target is where the samples are now.
-  void skip(std::int64_t periods) noexcept;
   /// `reach`: what the joint can do.
   SampleFate take(const StreamSample& sample, const MotionLimits& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
@@ -124,7 +122,6 @@ class StreamBuffer {
   Knot from_;                      ///< the quintic's begin ...
   Knot to_;                        ///< ... and end, on the motion of ...
   Knot anchor_;                    ///< ... this sample
-  int contradictions_ = 0;         ///< samples that contradict, less those that do not
   double contradicts_from_ = 0.0;  ///< instant of the first of them
   bool ended_ = false;
 };

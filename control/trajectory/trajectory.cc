@@ -59,8 +59,6 @@ void Trajectory::stop() noexcept {
 void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
   if (elapsed_periods <= kMaxElapsedPeriods)
     stream_.leave_out(elapsed_periods - 1);
-  else if (source_ == Source::kStream)
-    stream_.skip(elapsed_periods - 1);
   else
     stream_.wait(elapsed_periods - 1);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "control/trajectory/reference_shaper.h"
 
@@ -197,18 +198,29 @@ TEST(StreamBuffer, GoesOnWhereVelocitiesAreALittleOff) {
   EXPECT_EQ(samples_until_contradiction([&](double v) { return v + noise(random); }), 0);
 }
 
-TEST(StreamBuffer, IsAfterSkippedPeriodsWhereItsSamplesAre) {
-  StreamBuffer buffer = begun();
-  int k = 0;
-  for (; k < 1000; ++k) {
-    if (k % 10 == 0) buffer.take(stamped(sine(kPeriod_s * (k + 100), 1), 100), kReach);
-    buffer.step();
-  }
-  buffer.skip(50);
-  EXPECT_NEAR(buffer.step().position_rad, sine(kPeriod_s * (k + 50), 0).position_rad, 1e-3);
-  EXPECT_FALSE(buffer.ended());
-  buffer.skip(400);
-  EXPECT_TRUE(buffer.ended());
+// Positions alone, at rest and in motion: neither what came before a jump nor that it stands afterwards is a motion.
+TEST(StreamBuffer, GoesToANewPlaceAsFastAsTheLimitsAllow) {
+  for (const auto& [every, rate_rad_s] :
+       {std::pair{2, 0.0}, std::pair{10, 0.0}, std::pair{20, 0.0}, std::pair{2, 0.5}, std::pair{10, 0.5}})
+    for (const double step_rad : {0.1, 1.0}) {
+      const auto place_rad = [&, rate = rate_rad_s](int period) {
+        return (period >= 500 ? step_rad : 0.0) + rate * kPeriod_s * period;
+      };
+      StreamBuffer buffer = begun();
+      ReferenceShaper shaper(kPeriod_s);
+      shaper.set_limits(kReach);
+      double beyond_rad = 0.0;
+      int arrived = 0;
+      for (int k = 0; k < 1000; ++k) {
+        if (k % every == 0) buffer.take(stamped({place_rad(k + 60)}, 60), kReach);
+        shaper.follow(buffer.step(), {});
+        const double off_rad = shaper.position_rad() - place_rad(k + 1);
+        if (k > 500) beyond_rad = std::max(beyond_rad, off_rad);
+        if (k > 500 && std::abs(off_rad) > 1e-3) arrived = k;
+      }
+      EXPECT_LT(beyond_rad, 0.02 * step_rad) << every << ", " << rate_rad_s << ", " << step_rad;
+      EXPECT_LT(arrived - 500, step_rad < 1.0 ? 85 : 208) << every << ", " << rate_rad_s << ", " << step_rad;
+    }
 }
 
 }  // namespace
