@@ -22,7 +22,7 @@ struct Segment {
   double acceleration_rad_s2 = 0.0;  ///< at its begin
   double jerk_rad_s3 = 0.0;
 
-  PathPoint at(double since_s) const noexcept {
+  Reference at(double since_s) const noexcept {
     return {from.position_rad + since_s * (from.velocity_rad_s + since_s * (0.5 * acceleration_rad_s2 +
                                                                             since_s * jerk_rad_s3 / 6.0)),
             from.velocity_rad_s + since_s * (acceleration_rad_s2 + 0.5 * since_s * jerk_rad_s3),
@@ -105,13 +105,13 @@ class Judge {
 
 // At its begin a segment's speed does what it does afterwards, at its end what it did before.
 Found judge_ends(const Segment& segment, const Judge& judge) {
-  const PathPoint begin = segment.at(0.0);
+  const Reference begin = segment.at(0.0);
   const double begins_by = begin.velocity_rad_s * begin.acceleration_rad_s2;
   if (auto found =
           judge.acceleration(begin.acceleration_rad_s2, begins_by > 0.0 || begin.velocity_rad_s == 0.0,
                              begins_by < 0.0, segment.from.time_s))
     return found;
-  const PathPoint end = segment.at(segment.duration_s);
+  const Reference end = segment.at(segment.duration_s);
   const bool at_rest = std::abs(end.velocity_rad_s) <= kAtBound;
   const double ends_by = end.velocity_rad_s * end.acceleration_rad_s2;
   return judge.acceleration(end.acceleration_rad_s2, !at_rest && ends_by > 0.0, at_rest || ends_by < 0.0,
@@ -121,7 +121,7 @@ Found judge_ends(const Segment& segment, const Judge& judge) {
 Found judge_inside(const Segment& segment, const Judge& judge) {
   const Instants turns = turns_of(segment);
   for (std::size_t i = 0; i < turns.count; ++i) {
-    const PathPoint turn = segment.at(turns.since_s[i]);
+    const Reference turn = segment.at(turns.since_s[i]);
     const double time_s = segment.from.time_s + turns.since_s[i];
     if (auto found = judge.position(turn.position_rad, time_s)) return found;
     if (auto found = judge.acceleration(turn.acceleration_rad_s2, true, true, time_s)) return found;
@@ -187,11 +187,11 @@ std::string what_is_allowed(const PathDefect& defect, const Words& words) {
 
 }  // namespace
 
-PathPoint on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept {
+Reference on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept {
   return segment_between(from, to).at(time_s - from.time_s);
 }
 
-PathPoint PathReader::at(const KnotPath& path, double time_s) noexcept {
+Reference PathReader::at(const KnotPath& path, double time_s) noexcept {
   while (segment_ + 1 < path.count && time_s >= path.knots[segment_ + 1].time_s) ++segment_;
   if (segment_ + 1 >= path.count) return {path.last().position_rad, 0.0, 0.0};
   const PathKnot& from = path.knots[segment_];

@@ -30,15 +30,8 @@ struct PathKnot {
   double velocity_rad_s = 0.0;
 };
 
-/// Where a path is at an instant.
-struct PathPoint {
-  double position_rad = 0.0;
-  double velocity_rad_s = 0.0;
-  double acceleration_rad_s2 = 0.0;
-};
-
 /// The cubic (Hermite) between two knots, at an instant between theirs. Real-time safe.
-PathPoint on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept;
+Reference on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept;
 
 struct KnotPath {
   static constexpr std::size_t kMostKnots = 320;
@@ -54,7 +47,7 @@ class PathReader {
  public:
   /// The path at `time_s`, not before that of the last call (a new reader begins at 0); at its end from there on, at rest. The knot that
   /// it is at moves on with the time, so that a period costs the same whatever the number of knots.
-  PathPoint at(const KnotPath& path, double time_s) noexcept;
+  Reference at(const KnotPath& path, double time_s) noexcept;
 
  private:
   std::size_t segment_ = 0;  ///< from this knot to the next

@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-RateRoom room_at(const PathPoint& point, double rate, const MotionLimits& limits) noexcept {
+RateRoom room_at(const Reference& point, double rate, const MotionLimits& limits) noexcept {
   const double speed_rad_s = std::abs(point.velocity_rad_s);
   // So slow a joint does not matter to the rate.
   if (speed_rad_s <= kAtBound * limits.velocity_rad_s) return PathClock::kMostRoom;
@@ -26,7 +26,7 @@ RateRoom RateRoom::both(const RateRoom& other) const noexcept {
   return {std::min(falling_1_s, other.falling_1_s), std::min(rising_1_s, other.rising_1_s)};
 }
 
-RateRoom rate_room(const PathPoint& here, const PathPoint& next, double rate,
+RateRoom rate_room(const Reference& here, const Reference& next, double rate,
                    const MotionLimits& limits) noexcept {
   return room_at(here, rate, limits).both(room_at(next, rate, limits));
 }
@@ -55,7 +55,7 @@ PathTime PathTimes::ago(double periods) const noexcept {
           between(newer.rate_change_1_s, older.rate_change_1_s)};
 }
 
-PathPoint in_path_time(const PathPoint& point, const PathTime& time) noexcept {
+Reference in_path_time(const Reference& point, const PathTime& time) noexcept {
   const double r = time.rate;
   return {point.position_rad, point.velocity_rad_s * r,
           point.acceleration_rad_s2 * r * r + point.velocity_rad_s * time.rate_change_1_s};

@@ -28,7 +28,7 @@ struct RateRoom {
 };
 
 /// What a joint with these limits leaves that is at `here` now and at `next` at the end of the period, while the time goes at `rate`.
-RateRoom rate_room(const PathPoint& here, const PathPoint& next, double rate,
+RateRoom rate_room(const Reference& here, const Reference& next, double rate,
                    const MotionLimits& limits) noexcept;
 
 /// Where a path's time is, and how it goes; by default a path that has not begun.
@@ -85,6 +85,6 @@ class PathTimes {
 };
 
 /// What the joint does at `point` of its path while the time goes as `time` says.
-PathPoint in_path_time(const PathPoint& point, const PathTime& time) noexcept;
+Reference in_path_time(const Reference& point, const PathTime& time) noexcept;
 
 }  // namespace strainwave

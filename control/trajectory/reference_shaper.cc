@@ -121,18 +121,13 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
 Reference ReferenceShaper::step() noexcept {
   double velocity =
       stopping_ ? brake_to_rest(velocity_rad_s_) : possible_velocity_rad_s(wanted_velocity_rad_s(), {});
-  double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
-
-  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {
-    velocity = 0.0;
-    if (stopping_) target_rad_ = position;
-    const double rounding_rad =
-        kPositionRounding_rad + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_);
-    if (std::abs(position - target_rad_) <= rounding_rad) position = target_rad_;
-  }
-  const Reference reference{position_rad_, velocity_rad_s_, (velocity - velocity_rad_s_) / period_s_};
-  position_rad_ = position;
-  velocity_rad_s_ = velocity;
+  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) velocity = 0.0;
+  const Reference reference = advance_to(velocity);
+  if (velocity != 0.0) return reference;
+  if (stopping_) target_rad_ = position_rad_;
+  const double rounding_rad =
+      kPositionRounding_rad + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_);
+  if (std::abs(position_rad_ - target_rad_) <= rounding_rad) position_rad_ = target_rad_;
   return reference;
 }
 

@@ -33,7 +33,7 @@ struct PositionRange {
   double max_rad = std::numeric_limits<double>::infinity();
 };
 
-/// The reference at a sample. The acceleration is that of the period that follows it.
+/// The reference at a sample, its acceleration that of the period that follows; or where a path is at an instant.
 struct Reference {
   double position_rad = 0.0;
   double velocity_rad_s = 0.0;

@@ -31,6 +31,13 @@ constexpr double kContradicts_s = 0.025;  // longer than a burst of samples that
 constexpr double kAtRest_rad = 1e-9;
 constexpr double kAtRest_rad_s = 1e-6;
 
+// Planned anew again and again the motion would come near a place, but never there.
+bool has_come_to(const MotionPoint& place, const MotionPoint& now) noexcept {
+  return place.velocity_rad_s == 0.0 && place.acceleration_rad_s2 == 0.0 &&
+         std::abs(now.position_rad - place.position_rad) <= kAtRest_rad &&
+         std::abs(now.velocity_rad_s) <= kAtRest_rad_s;
+}
+
 }  // namespace
 
 void StreamBuffer::begin(double position_rad, double velocity_rad_s, double lead_periods,
@@ -146,17 +153,11 @@ void StreamBuffer::lead_on() noexcept {
   const double until = now + std::max(kSegment_s / config_.period_s, caught_up_at_ - now_);
   anchor_ = derived(std::min(first_from(until), count_ - 1));
   state_.at = now;
-  if (state_.state.has_come_to(anchor_.state)) state_.state = anchor_.state;
+  if (has_come_to(anchor_.state, state_.state)) state_.state = anchor_.state;
   from_ = state_;
   to_ = anchor_;
   to_.at = std::max(anchor_.at, until);
   to_.state = carried(to_.at);
-}
-
-bool StreamBuffer::State::has_come_to(const State& place) const noexcept {
-  return place.velocity_rad_s == 0.0 && place.acceleration_rad_s2 == 0.0 &&
-         std::abs(position_rad - place.position_rad) <= kAtRest_rad &&
-         std::abs(velocity_rad_s) <= kAtRest_rad_s;
 }
 
 // A position that came three times, over a segment's time at least, is a place and not a part of the motion before it.
@@ -196,7 +197,7 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
   LocalPolynomial fit;
   fit_neighbours(i, fit);
   const auto [first, second, third] = fit.derivatives();
-  State& state = one.state;
+  MotionPoint& state = one.state;
   if (one.believed() == 0) {
     state.velocity_rad_s = first;
     state.acceleration_rad_s2 = second;
@@ -214,8 +215,8 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
 }
 
 // The motion of the anchor: with its acceleration for some time, then with the velocity of that.
-StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
-  const State& s = anchor_.state;
+MotionPoint StreamBuffer::carried(double at) const noexcept {
+  const MotionPoint& s = anchor_.state;
   const double jerk = s.jerk_rad_s3;
   const double since_s = seconds(at - anchor_.at);
   const double t = std::min(since_s, std::max(kCarriedIntervals * seconds(interval_), kCarried_s));
@@ -226,11 +227,11 @@ StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
   return {position + (since_s - t) * velocity, velocity, since_s > t ? 0.0 : acceleration, 0.0};
 }
 
-StreamBuffer::State StreamBuffer::between(double at) const noexcept {
+MotionPoint StreamBuffer::between(double at) const noexcept {
   const double T = seconds(to_.at - from_.at);
   const double s = (at - from_.at) / (to_.at - from_.at);
-  const State& f = from_.state;
-  const State& g = to_.state;
+  const MotionPoint& f = from_.state;
+  const MotionPoint& g = to_.state;
   const double c1 = T * f.velocity_rad_s;
   const double c2 = 0.5 * T * T * f.acceleration_rad_s2;
   const double way = g.position_rad - f.position_rad - c1 - c2;
@@ -267,12 +268,12 @@ void StreamBuffer::move_to(double at) noexcept {
 }
 
 MovingTarget StreamBuffer::step() noexcept {
-  const State begin = state_.state;
+  const MotionPoint begin = state_.state;
   if (play() >= to_.at && count_ > 0 && last().at > play()) lead_on();
   now_ += 1.0;
   left_out_ = std::max(0.0, left_out_ - 1.0);
   move_to(play());
-  const State& end = state_.state;
+  const MotionPoint& end = state_.state;
   return {begin.position_rad, begin.velocity_rad_s, end.position_rad, end.velocity_rad_s, state_.load};
 }
 

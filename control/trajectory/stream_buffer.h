@@ -20,6 +20,7 @@
 #include <cstdint>
 
 #include "control/joint/motion_limits.h"
+#include "control/trajectory/moving_mean.h"
 #include "control/trajectory/sender_clock.h"
 #include "control/trajectory/stream_sample.h"
 
@@ -64,21 +65,13 @@ class StreamBuffer {
  private:
   static constexpr std::size_t kSamples = 1024;  ///< that may wait: a second of 1 kHz
 
-  struct State {
-    double position_rad = 0.0;
-    double velocity_rad_s = 0.0;
-    double acceleration_rad_s2 = 0.0;
-    double jerk_rad_s3 = 0.0;
-    /// Planned anew again and again the motion would come near a place, but never there.
-    bool has_come_to(const State& place) const noexcept;
-  };
   struct Way {
     double shown_rad = 0.0;  ///< by the positions of two samples
     double told_rad = 0.0;   ///< by their velocities
   };
   struct Knot {
     double at = 0.0;  ///< periods
-    State state;
+    MotionPoint state;
     StreamLoad load{};
     int derivatives = 2;
     bool new_place = false;    ///< samples before it are of another motion
@@ -101,8 +94,8 @@ class StreamBuffer {
   void fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept;
   Knot derived(std::size_t i) const noexcept;
   bool is_new_place(const Knot& knot) const noexcept;
-  State carried(double at) const noexcept;
-  State between(double at) const noexcept;
+  MotionPoint carried(double at) const noexcept;
+  MotionPoint between(double at) const noexcept;
   StreamLoad load_at(double at) const noexcept;
   void move_to(double at) noexcept;
 

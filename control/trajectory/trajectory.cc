@@ -77,7 +77,7 @@ bool Trajectory::flickers(const MovingTarget& target) const noexcept {
 MovingTarget Trajectory::next_on_path() noexcept {
   const PathKnot now{0.0, on_path_.position_rad, on_path_.velocity_rad_s};
   const PathKnot& to = path_to_;
-  PathPoint next{to.position_rad, to.time_s > 0.5 * config_.period_s ? to.velocity_rad_s : 0.0, 0.0};
+  Reference next{to.position_rad, to.time_s > 0.5 * config_.period_s ? to.velocity_rad_s : 0.0, 0.0};
   if (to.time_s > 1.5 * config_.period_s) next = on_cubic(now, to, config_.period_s);
   path_to_.time_s = std::max(0.0, to.time_s - config_.period_s);
   on_path_ = next;

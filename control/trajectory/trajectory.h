@@ -71,7 +71,7 @@ class Trajectory {
   StreamLoad load_;
   double sample_rad_ = 0.0;
   Source source_ = Source::kMove;
-  PathPoint on_path_;  ///< now
+  Reference on_path_;  ///< now
   PathKnot path_to_;   ///< its next knot, from now
 };
 

@@ -39,7 +39,7 @@ PathLimits wide() {
 /// What a path needs, by looking at some 4000 instants of each segment, and ever closer to its knots.
 struct Needs {
   double min_rad = 1e9, max_rad = -1e9, speed = 0.0, growing = 0.0, falling = 0.0;
-  void see(const PathPoint& p) {
+  void see(const Reference& p) {
     min_rad = std::min(min_rad, p.position_rad);
     max_rad = std::max(max_rad, p.position_rad);
     speed = std::max(speed, std::abs(p.velocity_rad_s));
@@ -70,7 +70,7 @@ TEST(KnotPath, PassesThroughItsKnotsWithTheirVelocities) {
   const KnotPath path = random_path(random);
   PathReader reader;
   for (std::size_t i = 0; i < path.count; ++i) {
-    const PathPoint at = reader.at(path, path.knots[i].time_s);
+    const Reference at = reader.at(path, path.knots[i].time_s);
     EXPECT_NEAR(at.position_rad, path.knots[i].position_rad, 1e-12);
     EXPECT_NEAR(at.velocity_rad_s, path.knots[i].velocity_rad_s, 1e-12);
   }
@@ -83,9 +83,9 @@ TEST(KnotPath, VelocityAndAccelerationAreTheDerivatives) {
   for (std::size_t i = 0; i + 1 < path.count; ++i) {
     const double t = 0.5 * (path.knots[i].time_s + path.knots[i + 1].time_s);
     PathReader reader;
-    const PathPoint before = reader.at(path, t - kStep);
-    const PathPoint at = reader.at(path, t);
-    const PathPoint after = reader.at(path, t + kStep);
+    const Reference before = reader.at(path, t - kStep);
+    const Reference at = reader.at(path, t);
+    const Reference after = reader.at(path, t + kStep);
     EXPECT_NEAR((after.position_rad - before.position_rad) / (2 * kStep), at.velocity_rad_s, 1e-6);
     EXPECT_NEAR((after.velocity_rad_s - before.velocity_rad_s) / (2 * kStep), at.acceleration_rad_s2, 1e-5);
   }
@@ -99,7 +99,7 @@ TEST(KnotPath, ReadInStepsItIsTheSameAsReadAtOnceAndRestsAfterItsEnd) {
     PathReader fresh;
     EXPECT_EQ(forwards.at(path, t).position_rad, fresh.at(path, t).position_rad);
   }
-  const PathPoint end = forwards.at(path, path.duration_s() + 1.0);
+  const Reference end = forwards.at(path, path.duration_s() + 1.0);
   EXPECT_EQ(end.position_rad, path.last().position_rad);
   EXPECT_EQ(end.velocity_rad_s, 0.0);
   EXPECT_EQ(end.acceleration_rad_s2, 0.0);

@@ -35,16 +35,16 @@ struct Followers {
   std::vector<PathReader> readers = std::vector<PathReader>(paths.size());
   PathClock clock{};
 
-  std::vector<PathPoint> step() {
+  std::vector<Reference> step() {
     RateRoom room = PathClock::kMostRoom;
     for (std::size_t i = 0; i < paths.size() && !clock.steady(); ++i) {
       PathReader ahead = readers[i];
-      const PathPoint here = ahead.at(paths[i], clock.time_s());
+      const Reference here = ahead.at(paths[i], clock.time_s());
       room = room.both(rate_room(here, ahead.at(paths[i], clock.time_s() + kPeriod_s * clock.rate()),
                                  clock.rate(), kLimits));
     }
     clock.advance(kPeriod_s, room);
-    std::vector<PathPoint> points;
+    std::vector<Reference> points;
     for (std::size_t i = 0; i < paths.size(); ++i)
       points.push_back(in_path_time(readers[i].at(paths[i], clock.time_s()), clock.now()));
     return points;
@@ -72,7 +72,7 @@ TEST(PathClock, PausesAndResumesWithinTheAccelerationsOfEveryJoint) {
     Followers group{{possible_path(random), possible_path(random), possible_path(random)}};
     double duration_s = 0.0;
     for (const KnotPath& path : group.paths) duration_s = std::max(duration_s, path.duration_s());
-    std::vector<PathPoint> last(3);
+    std::vector<Reference> last(3);
     int wait = periods(random);
     double most_growing = 0.0;
     double most_falling = 0.0;
@@ -82,7 +82,7 @@ TEST(PathClock, PausesAndResumesWithinTheAccelerationsOfEveryJoint) {
         wait = periods(random);
         group.clock.is_to_rest() ? group.clock.run() : group.clock.rest();
       }
-      const std::vector<PathPoint> now = group.step();
+      const std::vector<Reference> now = group.step();
       for (std::size_t i = 0; i < now.size() && total > 0; ++i) {
         const double change =
             (std::abs(now[i].velocity_rad_s) - std::abs(last[i].velocity_rad_s)) / kPeriod_s;
@@ -118,8 +118,8 @@ TEST(PathClock, ComesToRestFromEveryInstantOfAPath) {
 
 TEST(PathClock, LeavesTheVelocityOfAPathThatRunsAsItIs) {
   PathClock clock{};
-  const PathPoint point{0.3, 1.5, -4.0};
-  const PathPoint same = in_path_time(point, clock.now());
+  const Reference point{0.3, 1.5, -4.0};
+  const Reference same = in_path_time(point, clock.now());
   EXPECT_EQ(same.velocity_rad_s, point.velocity_rad_s);
   EXPECT_EQ(same.acceleration_rad_s2, point.acceleration_rad_s2);
   clock.rest();

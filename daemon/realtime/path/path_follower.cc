@@ -110,7 +110,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   }
   for_each_member(index, [&](JointInLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
-    const PathPoint on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
+    const Reference on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
     joint.law.controller().follow_path(joint.zero.to_drive_rad(on.position_rad), on.velocity_rad_s,
                                        time.elapsed_periods, joint.reachable_range());
     // Of the setpoint in the same state: the reference reaches the present point one period later, or more.
@@ -145,8 +145,8 @@ RateRoom PathFollower::room(std::size_t index) noexcept {
   for_each_member(index, [&](JointInLoop& joint, Member& member) {
     PathReader ahead = member.reader;
     const KnotPath& path = joint.path->path;
-    const PathPoint here = ahead.at(path, clock.time_s());
-    const PathPoint next = ahead.at(path, clock.time_s() + period_s_ * clock.rate());
+    const Reference here = ahead.at(path, clock.time_s());
+    const Reference next = ahead.at(path, clock.time_s() + period_s_ * clock.rate());
     all = all.both(rate_room(here, next, clock.rate(), joint.config.controller.motion));
   });
   return all;

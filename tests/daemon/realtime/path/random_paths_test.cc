@@ -101,7 +101,7 @@ std::vector<KnotPath> draw_path(std::mt19937_64& random, std::size_t joints) {
     const KnotPath& part = parts.emplace_back(draw_part(random, times_s, reach_rad));
     PathReader reader;
     for (double t = 0.0; t < part.duration_s(); t += part.duration_s() / 10000.0) {
-      const PathPoint point = reader.at(part, t);
+      const Reference point = reader.at(part, t);
       speed_rad_s = std::max(speed_rad_s, std::abs(point.velocity_rad_s));
       acceleration_rad_s2 = std::max(acceleration_rad_s2, std::abs(point.acceleration_rad_s2));
     }
