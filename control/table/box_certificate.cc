@@ -29,15 +29,14 @@ std::span<const BoxCell> cells_of(const CertifiedBox& box) {
   return std::span(box.cells).first(static_cast<std::size_t>(box.cell_count));
 }
 
-// Where a cell begins or ends within `whole`, whose ends are the first and the last.
+// Where a cell begins or ends within `whole`, whose ends are the first and the last. What lies between two that are the same, a cell beside
+// it holds.
 std::vector<double> edges(const BoxRange& whole, std::span<const BoxCell> cells, BoxRange BoxCell::*range) {
   std::vector<double> all{whole.from, whole.to};
   for (const BoxCell& cell : cells)
     for (const double edge : {(cell.*range).from, (cell.*range).to})
       if (whole.holds(edge)) all.push_back(edge);
   std::ranges::sort(all);
-  all.erase(std::unique(all.begin() + 1, all.end()), all.end());
-  if (all.size() > 2 && all[0] == all[1]) all.erase(all.begin());
   return all;
 }
 

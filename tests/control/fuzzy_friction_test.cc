@@ -35,16 +35,7 @@ void expect_partition(const TemperatureWeights& weights, double temperature_C) {
   EXPECT_NEAR(sum, 1.0, 1e-14) << temperature_C;
 }
 
-TEST(Memberships, WeightsSumToOneAndLieBetweenZeroAndOneOverTheWholeRangeOfDoubles) {
-  for (const char* table : {"c1", "c2", "c3", "c4", "rhs17-6006"}) {
-    const FuzzyFriction friction =
-        read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + table + ".json").friction;
-    for (const double temperature_C : whole_range())
-      expect_partition(friction.weights(temperature_C), temperature_C);
-  }
-}
-
-TEST(Memberships, WeightsSumToOneForRandomRulesHoweverNarrow) {
+TEST(FuzzyFriction, WeightsSumToOneOverTheWholeRangeOfDoublesForRandomRulesHoweverNarrow) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> center(-50.0, 80.0);
   std::uniform_real_distribution<double> exponent(-3.0, 3.0);
@@ -56,19 +47,19 @@ TEST(Memberships, WeightsSumToOneForRandomRulesHoweverNarrow) {
     friction.temperature_max_C = 60.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i)
       friction.rules[i] = {center(random), std::pow(10.0, exponent(random)), {}};
-    for (const double temperature_C : {-1e308, -20.0, 0.0, 13.7, 60.0, 1e308})
+    for (const double temperature_C : whole_range())
       expect_partition(friction.weights(temperature_C), temperature_C);
   }
 }
 
-TEST(Memberships, OutsideTheTableTheTemperatureIsThatOfItsEdge) {
+TEST(FuzzyFriction, OutsideTheTableTheTemperatureIsThatOfItsEdge) {
   const FuzzyFriction friction = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json").friction;
   const TemperatureWeights edge = friction.weights(friction.temperature_max_C);
   const TemperatureWeights beyond = friction.weights(1e308);
   EXPECT_EQ(edge.weight, beyond.weight);
 }
 
-TEST(Memberships, TheZeroVelocityWeightIsEvenFallsWithSpeedAndStaysBetweenZeroAndOne) {
+TEST(FuzzyFriction, TheZeroVelocityWeightIsEvenFallsWithSpeedAndStaysBetweenZeroAndOne) {
   const FuzzyFriction friction = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json").friction;
   for (const double velocity_rad_s : whole_range()) {
     const double here = friction.velocity.zero_weight(velocity_rad_s);

@@ -179,6 +179,7 @@ TEST(JointControllerWithLink, AllocatesNothing) {
   const AllocationTrap trap;
   loop.controller().set_target(0.1);
   for (int k = 0; k < 500; ++k) loop.step();
+  EXPECT_EQ(trap.touches(), 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/units.h"
@@ -105,13 +106,9 @@ TEST(ReachableLimits, EndAtASpeedThatTheMotorHoldsAgainstFrictionAndTheirAcceler
         << "no slower than reserve and trickle make it";
     EXPECT_EQ(at(load_Nm, 2.0 * top_rad_s).velocity_rad_s, top_rad_s);
   }
-  EXPECT_GT(at(1000.0, 0.0).velocity_rad_s, 0.0);
-}
-
-TEST(ReachableLimits, LeaveATrickleUnderALoadThatNothingCanMove) {
-  const MotionLimits stuck = limits(1000.0, 0.0);
-  EXPECT_GT(stuck.acceleration_rad_s2, 0.0);
-  EXPECT_GT(stuck.deceleration_rad_s2, 0.0);
+  const MotionLimits stuck = at(1000.0, 0.0);
+  EXPECT_GT(std::min({stuck.velocity_rad_s, stuck.acceleration_rad_s2, stuck.deceleration_rad_s2}), 0.0)
+      << "a trickle is left under a load that nothing can move";
 }
 
 }  // namespace

@@ -66,35 +66,6 @@ TEST(SpringPlant, TheExponentialIsTheSolutionOfTheDifferentialEquation) {
   }
 }
 
-TEST(SpringPlant, WithoutASpringTheMotorIsTheRigidJointOfItsInertia) {
-  SpringPlant plant = kJoint;
-  plant.stiffness_Nm_rad = 0.0;
-  plant.damping_Nms_rad = 0.0;
-  const double rate_1_s = plant.viscous_Nms_rad / plant.motor_inertia_kgm2;
-  const double by_speed_s = -std::expm1(-rate_1_s * kPeriod_s) / rate_1_s;
-  const ProofMatrix actual = sampled(plant).value;
-  EXPECT_NEAR(actual(0, 1), by_speed_s, 1e-15);
-  EXPECT_NEAR(actual(1, 1), std::exp(-rate_1_s * kPeriod_s), 1e-15);
-  EXPECT_NEAR(actual(0, 4), (kPeriod_s - by_speed_s) / plant.viscous_Nms_rad, 1e-13);
-  EXPECT_NEAR(actual(1, 4), by_speed_s / plant.motor_inertia_kgm2, 1e-15);
-}
-
-// Where all inertia is taken together the joint is the rigid one, whatever the spring: its centre moves as a joint of Jm + Jl does.
-TEST(SpringPlant, TheCentreOfBothInertiasIsTheRigidJointOfTheirSum) {
-  SpringPlant plant = kJoint;
-  plant.viscous_Nms_rad = 0.0;
-  const double total = plant.motor_inertia_kgm2 + plant.link_inertia_kgm2;
-  const double share = plant.link_inertia_kgm2 / total;
-  const ProofMatrix E = sampled(plant).value;
-  const Eigen::RowVectorXd position = E.row(0) + share * E.row(2);
-  const Eigen::RowVectorXd speed = E.row(1) + share * E.row(3);
-  Eigen::RowVectorXd expected(5);
-  expected << 1.0, kPeriod_s, share, share * kPeriod_s, 0.5 * kPeriod_s * kPeriod_s / total;
-  EXPECT_LT((position - expected).cwiseAbs().maxCoeff(), 1e-15);
-  expected << 0.0, 1.0, 0.0, share, kPeriod_s / total;
-  EXPECT_LT((speed - expected).cwiseAbs().maxCoeff(), 1e-13);
-}
-
 TEST(SpringPlant, TheErrorsOfTheExponentialCoverItInLongDouble) {
   using LongMatrix = Eigen::Matrix<long double, 5, 5>;
   for (const double stiffness : {1e3, 1e4, 1e5}) {
