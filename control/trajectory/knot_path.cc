@@ -37,29 +37,13 @@ Segment segment_between(const PathKnot& from, const PathKnot& to) noexcept {
           6.0 * (from.velocity_rad_s + to.velocity_rad_s - 2.0 * mean_rad_s) / (T * T)};
 }
 
-/// Instants inside a segment, at most two.
-struct Instants {
-  std::array<double, 2> since_s{};
-  std::size_t count = 0;
-  void add_inside(double candidate_s, double duration_s) noexcept {
-    if (candidate_s > kAtBound * duration_s && candidate_s < (1.0 - kAtBound) * duration_s)
-      since_s[count++] = candidate_s;
-  }
-};
-
-// Where it turns round: v0 + a0 u + j u^2 / 2 = 0, in the form that loses no digits.
-Instants turns_of(const Segment& segment) noexcept {
-  Instants turns;
+// Where it turns round: v0 + a0 u + j u^2 / 2 = 0, in the form that loses no digits. Not finite where it does not.
+std::array<double, 2> turns_of(const Segment& segment) noexcept {
   const double a = segment.acceleration_rad_s2;
   const double j = segment.jerk_rad_s3;
   const double v = segment.from.velocity_rad_s;
-  const double discriminant = a * a - 2.0 * j * v;
-  if (discriminant < 0.0) return turns;
-  const double q = -(a + std::copysign(std::sqrt(discriminant), a));
-  if (q == 0.0) return turns;
-  if (j != 0.0) turns.add_inside(q / j, segment.duration_s);
-  turns.add_inside(2.0 * v / q, segment.duration_s);
-  return turns;
+  const double q = -(a + std::copysign(std::sqrt(a * a - 2.0 * j * v), a));
+  return {q / j, 2.0 * v / q};
 }
 
 using Found = std::optional<PathDefect>;
@@ -105,32 +89,32 @@ class Judge {
 
 // At its begin a segment's speed does what it does afterwards, at its end what it did before.
 Found judge_ends(const Segment& segment, const Judge& judge) {
-  const Reference begin = segment.at(0.0);
-  const double begins_by = begin.velocity_rad_s * begin.acceleration_rad_s2;
-  if (auto found =
-          judge.acceleration(begin.acceleration_rad_s2, begins_by > 0.0 || begin.velocity_rad_s == 0.0,
-                             begins_by < 0.0, segment.from.time_s))
-    return found;
-  const Reference end = segment.at(segment.duration_s);
-  const bool at_rest = std::abs(end.velocity_rad_s) <= kAtBound;
-  const double ends_by = end.velocity_rad_s * end.acceleration_rad_s2;
-  return judge.acceleration(end.acceleration_rad_s2, !at_rest && ends_by > 0.0, at_rest || ends_by < 0.0,
-                            segment.from.time_s + segment.duration_s);
+  for (const bool begins : {true, false}) {
+    const double since_s = begins ? 0.0 : segment.duration_s;
+    const Reference end = segment.at(since_s);
+    const bool rests = std::abs(end.velocity_rad_s) <= kAtBound;
+    const double by = end.velocity_rad_s * end.acceleration_rad_s2;
+    if (auto found = judge.acceleration(end.acceleration_rad_s2, rests ? begins : by > 0.0,
+                                        rests ? !begins : by < 0.0, segment.from.time_s + since_s))
+      return found;
+  }
+  return std::nullopt;
 }
 
 Found judge_inside(const Segment& segment, const Judge& judge) {
-  const Instants turns = turns_of(segment);
-  for (std::size_t i = 0; i < turns.count; ++i) {
-    const Reference turn = segment.at(turns.since_s[i]);
-    const double time_s = segment.from.time_s + turns.since_s[i];
+  const auto inside = [&](double since_s) {
+    return since_s > kAtBound * segment.duration_s && since_s < (1.0 - kAtBound) * segment.duration_s;
+  };
+  for (const double since_s : turns_of(segment)) {
+    if (!inside(since_s)) continue;
+    const Reference turn = segment.at(since_s);
+    const double time_s = segment.from.time_s + since_s;
     if (auto found = judge.position(turn.position_rad, time_s)) return found;
     if (auto found = judge.acceleration(turn.acceleration_rad_s2, true, true, time_s)) return found;
   }
-  if (segment.jerk_rad_s3 == 0.0) return std::nullopt;
-  Instants fastest;
-  fastest.add_inside(-segment.acceleration_rad_s2 / segment.jerk_rad_s3, segment.duration_s);
-  if (fastest.count == 0) return std::nullopt;
-  return judge.speed(segment.at(fastest.since_s[0]).velocity_rad_s, segment.from.time_s + fastest.since_s[0]);
+  const double fastest_s = -segment.acceleration_rad_s2 / segment.jerk_rad_s3;
+  if (!inside(fastest_s)) return std::nullopt;
+  return judge.speed(segment.at(fastest_s).velocity_rad_s, segment.from.time_s + fastest_s);
 }
 
 Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s) {
