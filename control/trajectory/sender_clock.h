@@ -38,18 +38,9 @@ class SenderClock {
       return;
     }
     sent_ += since;
-    const double jitter = kJitter_us / period_us_;
-    if (late > jitter) {
-      if (!std::exchange(held_up_, true)) {
-        since_ = period;
-        quickest_ = period - sent_;
-      }
-      quickest_ = std::min(quickest_, period - sent_);
-      if ((period - since_) * period_us_ <= kInARow_us) return;
-      offset_ = quickest_;
-      return begin_mean();
-    }
-    if (late < -jitter) {
+    if (std::abs(late) * period_us_ > kJitter_us) {
+      if (late > 0.0 && !std::exchange(held_up_, true)) since_ = period;
+      if (late > 0.0 && (period - since_) * period_us_ <= kInARow_us) return;
       offset_ += late;
       return begin_mean();
     }
@@ -77,10 +68,9 @@ class SenderClock {
   std::int64_t last_us_ = 0;
   double sent_ = 0.0;
   double offset_ = 0.0;
-  int messages_ = 0;       ///< that offset_ is the mean of, at most
-  bool held_up_ = false;   ///< the last, and all since ...
-  double since_ = 0.0;     ///< ... this period
-  double quickest_ = 0.0;  ///< least arrival - sent since
+  int messages_ = 0;      ///< that offset_ is the mean of, at most
+  bool held_up_ = false;  ///< the last, and all since ...
+  double since_ = 0.0;    ///< ... this period
 };
 
 }  // namespace strainwave
