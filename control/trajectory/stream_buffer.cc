@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "control/trajectory/local_polynomial.h"
 
@@ -30,6 +31,9 @@ constexpr double kContradicts_s = 0.025;  // longer than a burst of samples that
 // A motion that ends is at its place: far below an encoder's count, and what the torque shows of it.
 constexpr double kAtRest_rad = 1e-9;
 constexpr double kAtRest_rad_s = 1e-6;
+// Each the derivative of the one before.
+constexpr std::array kParts{&MotionPoint::position_rad, &MotionPoint::velocity_rad_s,
+                            &MotionPoint::acceleration_rad_s2, &MotionPoint::jerk_rad_s3};
 
 // Planned anew again and again the motion would come near a place, but never there.
 bool has_come_to(const MotionPoint& place, const MotionPoint& now) noexcept {
@@ -57,16 +61,9 @@ void StreamBuffer::resume(double position_rad, double velocity_rad_s, const Stre
 }
 
 std::size_t StreamBuffer::first_from(double at) const noexcept {
-  std::size_t low = 0;
-  std::size_t high = count_;
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (knot(middle).at < at)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  const auto all = std::views::iota(std::size_t{0}, count_);
+  const auto found = std::ranges::partition_point(all, [&](std::size_t i) { return knot(i).at < at; });
+  return static_cast<std::size_t>(found - all.begin());
 }
 
 // The newest order counts: it takes the place of all that are for later.
@@ -171,10 +168,7 @@ bool StreamBuffer::stands(std::size_t i) const noexcept {
 
 void StreamBuffer::fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept {
   const Knot& one = knot(i);
-  const auto value = [&](const Knot& of) {
-    if (one.believed() == 0) return of.state.position_rad;
-    return one.believed() == 1 ? of.state.velocity_rad_s : of.state.acceleration_rad_s2;
-  };
+  const auto value = [part = kParts[one.believed()]](const Knot& of) { return of.state.*part; };
   double latest = one.at;
   const auto add = [&](const Knot& other) {
     const double apart_s = seconds(std::abs(other.at - latest));
@@ -196,18 +190,10 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
   if (stands(i)) return one;
   LocalPolynomial fit;
   fit_neighbours(i, fit);
-  const auto [first, second, third] = fit.derivatives();
   MotionPoint& state = one.state;
-  if (one.believed() == 0) {
-    state.velocity_rad_s = first;
-    state.acceleration_rad_s2 = second;
-    state.jerk_rad_s3 = third;
-  } else if (one.believed() == 1) {
-    state.acceleration_rad_s2 = first;
-    state.jerk_rad_s3 = second;
-  } else {
-    state.jerk_rad_s3 = first;
-  }
+  std::size_t part = one.believed();
+  for (const double derivative : fit.derivatives())
+    if (++part < kParts.size()) state.*kParts[part] = derivative;
   state.velocity_rad_s = std::clamp(state.velocity_rad_s, -reach_.velocity_rad_s, reach_.velocity_rad_s);
   state.acceleration_rad_s2 =
       std::clamp(state.acceleration_rad_s2, -reach_.acceleration_rad_s2, reach_.acceleration_rad_s2);

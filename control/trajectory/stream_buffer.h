@@ -77,7 +77,7 @@ class StreamBuffer {
     bool new_place = false;    ///< samples before it are of another motion
     bool contradicts = false;  ///< its velocity is not that of the positions
     /// How many of its derivatives are used.
-    int believed() const noexcept { return contradicts ? 0 : derivatives; }
+    std::size_t believed() const noexcept { return contradicts ? 0 : static_cast<std::size_t>(derivatives); }
     Way way_since(const Knot& before, double period_s) const noexcept;
     bool is_contradicted_by(const Knot& before, const StreamConfig& config) const noexcept;
   };
