@@ -39,6 +39,11 @@ struct JointInputs {
   bool home = false;
   std::int64_t index_count = 0;     ///< pulses of the encoder's index since the start
   double index_position_rad = 0.0;  ///< where the last one was, counted as joint_position_rad
+
+  /// Whether a motion or torque of this sign leads into a limit switch that is closed.
+  bool limit_towards(double direction) const noexcept {
+    return direction < 0.0 ? negative_limit : direction > 0.0 && positive_limit;
+  }
 };
 
 /// One period's measurements.

@@ -7,14 +7,11 @@ namespace strainwave {
 
 namespace {
 
-/// Shares of the joint's speed limit, where the configuration does not say.
-constexpr double kSearchShare = 0.05;
-constexpr double kCreepShare = 0.1;  // of the search speed
+/// Of the joint's speed limit, where the configuration does not say: 60 urad of a joint of 6 rad/s in a period of 1 ms.
+constexpr double kSpeedShare = 0.01;
 
-HomingTarget target_of(TomlSection& section, const HomingInputs& available) {
-  const std::string to = section.choice_or(
-      "to", "none",
-      {"none", "home", "negative_limit", "positive_limit", "index", "negative_stop", "positive_stop"});
+HomingTarget target_of(TomlSection& section, bool negative, const HomingInputs& available) {
+  const std::string to = section.choice_or("to", "none", {"none", "home", "limit", "index", "stop"});
   const auto require = [&](bool there, const char* what) {
     if (!there)
       section.fail("to", std::string("something that this joint's driver has is allowed; it has no ") + what);
@@ -23,21 +20,16 @@ HomingTarget target_of(TomlSection& section, const HomingInputs& available) {
     require(available.home, "home switch");
     return HomingTarget::kHomeSwitch;
   }
-  if (to == "negative_limit") {
-    require(available.negative_limit, "negative limit switch");
-    return HomingTarget::kNegativeLimit;
-  }
-  if (to == "positive_limit") {
-    require(available.positive_limit, "positive limit switch");
-    return HomingTarget::kPositiveLimit;
+  if (to == "limit") {
+    require(negative ? available.negative_limit : available.positive_limit,
+            negative ? "negative limit switch" : "positive limit switch");
+    return HomingTarget::kLimitSwitch;
   }
   if (to == "index") {
     require(available.index, "index input");
     return HomingTarget::kIndex;
   }
-  if (to == "negative_stop") return HomingTarget::kNegativeStop;
-  if (to == "positive_stop") return HomingTarget::kPositiveStop;
-  return HomingTarget::kNone;
+  return to == "stop" ? HomingTarget::kStop : HomingTarget::kNone;
 }
 
 }  // namespace
@@ -46,7 +38,9 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   HomingConfig& homing = joint.loop.homing;
   const JointLimits& limits = joint.loop.limits;
   const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
-  homing.target = target_of(section, available);
+  const bool negative = section.choice_or("direction", "negative", {"negative", "positive"}) == "negative";
+  homing.direction = negative ? -1.0 : 1.0;
+  homing.target = target_of(section, negative, available);
   if (homing.target != HomingTarget::kNone && joint.loop.controller.gravity.torque_Nm != 0.0)
     section.fail(
         "to",
@@ -61,25 +55,22 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   if (homing.required && homing.target == HomingTarget::kNone)
     section.fail("required", "false is allowed while joint.homing.to names nothing to look for");
   homing.then_index = section.boolean_or("then_index", homing.then_index);
-  if (homing.then_index && (!available.index || homing.target == HomingTarget::kIndex))
+  const bool by_switch =
+      homing.target == HomingTarget::kHomeSwitch || homing.target == HomingTarget::kLimitSwitch;
+  if (homing.then_index && !(available.index && by_switch))
     section.fail("then_index", "true needs a driver with an index input, and a switch as joint.homing.to");
-  if (homing.target == HomingTarget::kNegativeStop || homing.target == HomingTarget::kPositiveStop)
+  if (homing.target == HomingTarget::kStop)
     homing.stop_torque_Nm = section.number("stop_torque_Nm", {1e-6, joint.loop.controller.torque_limit_Nm});
-  homing.direction =
-      section.choice_or("direction", "negative", {"negative", "positive"}) == "negative" ? -1.0 : 1.0;
   const Range within_limits{limits.position_min_rad - limits.position_margin_rad,
                             limits.position_max_rad + limits.position_margin_rad};
   homing.home_position_rad =
       section.number_or("position_rad", std::clamp(0.0, within_limits.min, within_limits.max), within_limits);
-  homing.search_speed_rad_s =
-      section.number_or("search_rad_s", kSearchShare * speed_rad_s, {1e-6, speed_rad_s});
-  homing.creep_speed_rad_s = section.number_or("creep_rad_s", kCreepShare * homing.search_speed_rad_s,
-                                               {1e-6, homing.search_speed_rad_s});
+  homing.speed_rad_s = section.number_or("speed_rad_s", kSpeedShare * speed_rad_s, {1e-6, speed_rad_s});
   homing.travel_rad =
       section.number_or("travel_rad", 1.1 * (within_limits.max - within_limits.min), {1e-6, 1e4});
-  // There and back at the search speed, and as long again for what is done at the creep speed.
+  // To one end of the travel, to the other, and back.
   homing.timeout_s = section.number_or(
-      "timeout_s", std::min(3600.0, 4.0 * homing.travel_rad / homing.search_speed_rad_s), {0.01, 3600.0});
+      "timeout_s", std::min(3600.0, 4.0 * homing.travel_rad / homing.speed_rad_s), {0.01, 3600.0});
   section.refuse_unknown_keys();
 }
 

@@ -15,7 +15,7 @@ TEST_F(DaemonHoming, MustComeFirstAndMakesPositionsTrue) {
   // The joint stands at 0.4 and its encoder counts from there; the home switch is from 0.2 to 0.25.
   DaemonProcess daemon(folder_,
                        configuration("[joint.homing]\nto = \"home\"\nrequired = true\nposition_rad = 0.25\n"
-                                     "search_rad_s = 0.5\ncreep_rad_s = 0.05\n"
+                                     "speed_rad_s = 0.1\n"
                                      "[joint.simulated]\ninitial_position_rad = 0.4\nincremental = true\n"
                                      "home_from_rad = 0.2\nhome_to_rad = 0.25\n"));
   TestClient client;

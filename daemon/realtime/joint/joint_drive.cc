@@ -82,9 +82,4 @@ bool JointDrive::inject(const Injection& injection) noexcept {
   return true;
 }
 
-bool JointDrive::into_limit_switch(double direction) const noexcept {
-  return direction < 0.0 ? reading().inputs.negative_limit
-                         : direction > 0.0 && reading().inputs.positive_limit;
-}
-
 }  // namespace strainwave

@@ -50,8 +50,6 @@ class JointDrive {
   bool too_many_missed() const noexcept { return missed_ > missed_limit_; }
   /// From the position's sampling until it came; 0: not known, or none came.
   std::int64_t position_delay_ns() const noexcept { return fresh_ ? reading_.position_delay_ns : 0; }
-  /// Whether a motion or torque of this sign leads into a limit switch that is closed.
-  bool into_limit_switch(double direction) const noexcept;
   const TemperatureCheck& temperature() const noexcept { return temperature_; }
 
  private:

@@ -7,7 +7,7 @@ namespace {
 
 Homing::Observation observe(const JointInLoop& joint, const CycleTime& time) noexcept {
   const bool own_loop = joint.config.controller.drive_closes_loop();
-  return {joint.drive.position_rad(), joint.drive.reading().inputs, joint.law.motion().at_target, time.now_ns,
+  return {joint.drive.position_rad(), joint.drive.reading().inputs, time.now_ns,
           own_loop ? joint.drive.reading().torque_applied_Nm : joint.law.motion().output.torque_Nm};
 }
 
@@ -16,7 +16,7 @@ void follow_homing(JointInLoop& joint, const Homing::Order& order) noexcept {
     case Homing::Order::Kind::kGoOn:
       return;
     case Homing::Order::Kind::kMove:
-      joint.law.controller().set_target(order.target_rad, order.speed_rad_s);
+      joint.law.controller().set_target(order.target_rad, joint.config.homing.speed_rad_s);
       return;
     case Homing::Order::Kind::kStop:
       joint.law.controller().stop();
@@ -51,13 +51,10 @@ void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept {
 }
 
 void end_homing(JointInLoop& joint, const CycleTime& time) noexcept {
-  if (joint.homing.phase() == Homing::Phase::kDone) {
-    joint.zero.set(joint.homing.found_rad(), joint.config.homing.home_position_rad);
-    joint.ordered.rezero(joint.zero);
-    (void)joint.change_mode(ModeEvent::kArrived, time);
-  } else if (joint.homing.phase() == Homing::Phase::kIdle && joint.law.motion().at_target) {
-    (void)joint.change_mode(ModeEvent::kArrived, time);
-  }
+  const bool found = joint.homing.phase() == Homing::Phase::kFound;
+  if (!joint.law.motion().at_target || !(found || joint.homing.phase() == Homing::Phase::kIdle)) return;
+  if (found) joint.zero.set(joint.homing.found_rad(), joint.config.homing.home_position_rad);
+  (void)joint.change_mode(ModeEvent::kArrived, time);
 }
 
 }  // namespace strainwave

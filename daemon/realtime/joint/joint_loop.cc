@@ -108,7 +108,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   const double torque_Nm = joint_.law.motion().output.torque_Nm;
   // Homing goes into switches on purpose, slowly; its way to a stop needs the torque.
   if (!joint_.config.controller.drive_closes_loop() && !joint_.mode.is(Mode::kHoming) &&
-      joint_.drive.into_limit_switch(torque_Nm))
+      joint_.drive.reading().inputs.limit_towards(torque_Nm))
     joint_.law.refuse_torque();
   if (!std::isfinite(torque_Nm)) raise_fault(Fault::kNotFinite, time);
   note_limits(joint_);

@@ -117,7 +117,8 @@ Ruling begin_setpoint(JointInLoop& joint, const Order& order, const CycleTime& t
     if (const Ruling ruling = judge_begin(joint, order, target_rad, ahead_s);
         ruling.reason != Reason::kAccepted)
       return ruling;
-  if (joint.drive.into_limit_switch(target_rad - joint.drive.position_rad())) return Reason::kAtLimitSwitch;
+  if (joint.drive.reading().inputs.limit_towards(target_rad - joint.drive.position_rad()))
+    return Reason::kAtLimitSwitch;
   if (!joint.change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   SampleFate fate = SampleFate::kInTime;
   if (order.stream_id == 0)

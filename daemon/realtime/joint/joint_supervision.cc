@@ -52,7 +52,8 @@ void check_motion(JointInLoop& joint, const CycleTime& time) noexcept {
   if (joint.zero.known() && (joint_rad < limits.position_min_rad - limits.position_margin_rad ||
                              joint_rad > limits.position_max_rad + limits.position_margin_rad))
     return joint.raise_fault(Fault::kPositionLimit, time);
-  if (!joint.mode.is(Mode::kHoming) && joint.drive.into_limit_switch(motion.reference.velocity_rad_s))
+  if (!joint.mode.is(Mode::kHoming) &&
+      joint.drive.reading().inputs.limit_towards(motion.reference.velocity_rad_s))
     return joint.raise_fault(Fault::kLimitSwitch, time);
   if (motion.oscillates) return joint.raise_fault(Fault::kChatter, time, joint.law.evidence());
   // What the joint is yielding to pushes on as fast as it may be pushed.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "base/durations.h"
@@ -59,10 +60,8 @@ class OrderedTarget {
   void end() noexcept {
     if (goes_on()) stream_ = Stream::kNone;
   }
-  /// Something else begins: nothing of a stream is left.
-  void forget() noexcept { stream_ = Stream::kNone; }
-  /// Homing has moved the zero.
-  void rezero(const JointZero& zero) noexcept { joint_rad_ = zero.to_joint_rad(drive_rad_); }
+  /// Something else begins: nothing that was ordered is left.
+  void forget() noexcept { *this = {}; }
 
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
   /// Of the live stream; 0: none is.
@@ -89,7 +88,7 @@ class OrderedTarget {
   Stream stream_ = Stream::kNone;
   std::int64_t stream_id_ = 0;   ///< while live
   std::int64_t expires_ns_ = 0;  ///< while live
-  double drive_rad_ = 0.0;
+  double drive_rad_ = std::numeric_limits<double>::quiet_NaN();
   double joint_rad_ = 0.0;
   PathProgress progress_;  ///< while on a path
 };

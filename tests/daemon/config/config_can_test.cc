@@ -42,21 +42,21 @@ TEST_F(CanConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves
 TEST_F(CanConfigTest, WantsAnIncrementalEncoderToBeHomed) {
   const HomingConfig homing = read(example("epos4.toml")).joints[0].loop.homing;
   EXPECT_TRUE(homing.required) << "without its being said";
-  EXPECT_EQ(homing.target, HomingTarget::kNegativeLimit);
-  expect_mentions(error_after("epos4.toml", "to = \"negative_limit\"", "to = \"none\""),
+  EXPECT_EQ(homing.target, HomingTarget::kLimitSwitch);
+  EXPECT_EQ(homing.direction, -1.0);
+  expect_mentions(error_after("epos4.toml", "to = \"limit\"", "to = \"none\""),
                   {"joint[0].homing.to", "incremental"});
-  expect_mentions(
-      error_after("epos4.toml", "to = \"negative_limit\"", "to = \"negative_limit\"\nrequired = false"),
-      {"joint[0].homing.required", "incremental"});
-  expect_mentions(error_after("epos4.toml", "to = \"negative_limit\"", "to = \"home\""), {"no home switch"});
+  expect_mentions(error_after("epos4.toml", "to = \"limit\"", "to = \"limit\"\nrequired = false"),
+                  {"joint[0].homing.required", "incremental"});
+  expect_mentions(error_after("epos4.toml", "to = \"limit\"", "to = \"home\""), {"no home switch"});
   expect_mentions(error_after("epos4.toml", "encoder = \"incremental\"", ""),
                   {"joint[0].can.encoder", "required"});
   EXPECT_FALSE(read(example("elmo.toml")).joints[0].loop.homing.required) << "absolute";
 }
 
 TEST_F(CanConfigTest, HomesByTheIndexOfADriveWhoseTouchProbeMayBeUsed) {
-  const std::string by_index = replaced(example("epos4.toml"), "to = \"negative_limit\"",
-                                        "to = \"negative_limit\"\nthen_index = true");
+  const std::string by_index =
+      replaced(example("epos4.toml"), "to = \"limit\"", "to = \"limit\"\nthen_index = true");
   expect_mentions(error_of(by_index), {"joint[0].homing.then_index", "an index input"});
   const DaemonConfig config =
       read(replaced(by_index, "positive_limit = true", "positive_limit = true\nindex = \"encoder\""));
@@ -70,7 +70,7 @@ TEST_F(CanConfigTest, HomesByTheIndexOfADriveWhoseTouchProbeMayBeUsed) {
 
 TEST_F(CanConfigTest, WantsTheTorqueThatTellsAMechanicalStop) {
   const HomingConfig homing = read(example("odrive.toml")).joints[0].loop.homing;
-  EXPECT_EQ(homing.target, HomingTarget::kNegativeStop);
+  EXPECT_EQ(homing.target, HomingTarget::kStop);
   EXPECT_EQ(homing.stop_torque_Nm, 12.0);
   expect_mentions(error_after("odrive.toml", "stop_torque_Nm = 12", ""), {"stop_torque_Nm", "required"});
 }

@@ -196,7 +196,7 @@ std::string third_pdo(const std::string& eds) {
 
 TEST_F(DataSheets, HomingByTheEncodersIndexNeedsAllOfTheTouchProbe) {
   const std::string by_index =
-      replaced(replaced(example("epos4.toml"), "to = \"negative_limit\"", "to = \"index\""),
+      replaced(replaced(example("epos4.toml"), "to = \"limit\"", "to = \"index\""),
                "negative_limit = true", "index = \"encoder\"\nnegative_limit = true");
   const std::string epos4 = read_text_file(sheet("epos4.eds"));
   const auto check_with = [&](const std::string& objects) {

@@ -56,7 +56,7 @@ TEST_F(LoadConfigTest, IsATenthOfTheTorqueLimitWhereTheWeightTakesAllOfIt) {
 TEST_F(LoadConfigTest, IsAQuarterAboveWhatTheJointIsToldToCarryOrToPressWith) {
   for (const char* carried : {"initial_load_Nm = 20", "initial_load_Nm = -20"})
     EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150", carried)).load_Nm, 25.0, 1e-12);
-  const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 24\n";
+  const std::string homing = "\n[joint.homing]\nto = \"stop\"\nstop_torque_Nm = 24\n";
   EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150") + homing).load_Nm, 30.0, 1e-12);
 }
 

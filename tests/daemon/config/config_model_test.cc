@@ -134,10 +134,10 @@ TEST_F(ModelConfigTest, TakesDampingUpToHalfOfCriticalAndElseDoesNotKnowIt) {
 
 // The controller counts as the drive does; homing moves what comes from outside, and not the weight.
 TEST_F(ModelConfigTest, RefusesAWeightWherePositionsAreFoundByHoming) {
-  const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 3.0\n";
+  const std::string homing = "\n[joint.homing]\nto = \"stop\"\nstop_torque_Nm = 3.0\n";
   EXPECT_NO_THROW(read(flexible() + homing));
   expect_mentions(error_of(controlled(flexible(), "gravity_Nm = 3.0\ngravity_zero_rad = -0.5") + homing),
-                  {"homing.to", "positive_stop", "gravity_Nm"});
+                  {"homing.to", "stop", "gravity_Nm"});
 }
 
 TEST_F(ModelConfigTest, RefusesGearsAndLoadsThatCannotBe) {

@@ -24,7 +24,7 @@ index = "encoder"
 to = "index"
 direction = "positive"
 position_rad = {HOME_RAD}
-creep_rad_s = 0.1
+speed_rad_s = 0.1
 travel_rad = {TRAVEL_RAD}
 '''
 

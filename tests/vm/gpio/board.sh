@@ -101,8 +101,7 @@ to = "home"
 required = true
 then_index = true
 position_rad = 0.25132741
-search_rad_s = 0.3
-creep_rad_s = 0.05
+speed_rad_s = 0.05
 travel_rad = 1.2
 [joint.thermometer]
 file = "$TREE/temperature"

@@ -178,10 +178,8 @@ TEST_P(OwnLoopInEachMode, IsHomedAtALimitSwitch) {
   OwnLoopJoint made = joint_in(GetParam());
   made.drive.config.inputs.negative_limit = true;
   HomingConfig& homing = made.joint.loop.homing;
-  homing.target = HomingTarget::kNegativeLimit;
+  homing.target = HomingTarget::kLimitSwitch;
   homing.home_position_rad = -1.0;
-  homing.search_speed_rad_s = 0.5;
-  homing.creep_speed_rad_s = 0.05;
   OwnLoopBench bench(made);
   bench.give({.kind = OrderKind::kHome});
   for (int i = 0; i < 5000 && bench.loop->mode() == Mode::kHoming; ++i) {
@@ -189,7 +187,7 @@ TEST_P(OwnLoopInEachMode, IsHomedAtALimitSwitch) {
     bench.step();
   }
   EXPECT_EQ(bench.loop->mode(), Mode::kHolding) << to_text(bench.fault());
-  // What creeping makes in a period of the inputs, and the way that stopping takes.
+  // What the joint makes in a period of the inputs, and the way that stopping takes.
   EXPECT_NEAR(bench.loop->joint().zero.to_joint_rad(kSwitch_rad), -1.0, 0.002);
 }
 
@@ -211,7 +209,7 @@ TEST(OwnLoopInPosition, IsNotHomedAtAStopByADriveThatDoesNotSayItsTorque) {
   OwnLoopJoint made = joint_in(DriveMode::kPosition);
   made.drive.node.lacks = {0x6077};
   HomingConfig& homing = made.joint.loop.homing;
-  homing.target = HomingTarget::kNegativeStop;
+  homing.target = HomingTarget::kStop;
   homing.stop_torque_Nm = 5.0;
   OwnLoopBench bench(made);
   ASSERT_TRUE(bench.loop->orders().push({.id = 1000, .kind = OrderKind::kHome}));
