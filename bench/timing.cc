@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -53,6 +54,21 @@ struct Slice {
 void add(Slice& to, const Slice& from) {
   for (std::size_t i = 0; i < to.counts.size(); ++i) to.counts[i] += from.counts[i];
   to.max_ns = std::max(to.max_ns, from.max_ns);
+}
+
+/// The value below which `fraction` of the counted durations lie, interpolated within its bucket; 0 when empty.
+double percentile_ns(const HistogramCounts& counts, double fraction) {
+  const double wanted = fraction * static_cast<double>(std::accumulate(counts.begin(), counts.end(), 0LL));
+  double seen = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto count = static_cast<double>(counts[i]);
+    if (count > 0.0 && seen + count >= wanted) {
+      const double lower_ns = i == 0 ? 0.0 : bucket_upper_ns(i - 1);
+      return lower_ns + (bucket_upper_ns(i) - lower_ns) * (wanted - seen) / count;
+    }
+    seen += count;
+  }
+  return 0.0;
 }
 
 Order order(OrderKind kind) {

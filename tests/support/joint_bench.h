@@ -11,7 +11,6 @@
 
 #include "daemon/realtime/joint/joint_loop.h"
 #include "daemon/realtime/loop/overrun_watch.h"
-#include "daemon/realtime/path/joint_group.h"
 #include "daemon/realtime/path/path_follower.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"

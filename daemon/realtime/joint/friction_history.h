@@ -9,7 +9,6 @@
 namespace strainwave {
 
 struct FrictionHistory {
-  bool frozen = false;
   double learned_C = std::numeric_limits<double>::quiet_NaN();  ///< temperature at which it last learned
   std::optional<std::int64_t> learned_ns{};                     ///< when, monotonic; nothing: never
 

@@ -12,6 +12,9 @@ namespace strainwave {
 
 namespace {
 
+/// Of the mean speed of a joint that is not under control: a count of 20 urad is then a tenth of the usual standstill_rad_s.
+constexpr double kMean_s = 0.02;
+
 ReadingDoubt not_finite(const ActuatorReading& reading) noexcept {
   if (!std::isfinite(reading.joint_position_rad)) return ReadingDoubt::kPositionNotFinite;
   if (reading.has_velocity && !std::isfinite(reading.joint_velocity_rad_s))
@@ -24,8 +27,7 @@ ReadingDoubt not_finite(const ActuatorReading& reading) noexcept {
 JointDrive::JointDrive(const JointLoopConfig& config, std::unique_ptr<Actuator> actuator)
     : actuator_(std::move(actuator)),
       injector_(dynamic_cast<FaultyActuator*>(actuator_.get())),
-      position_check_({config.controller.period_s, config.limits.overspeed_rad_s,
-                       config.controller.encoder_resolution_rad}),
+      position_check_(config),
       temperature_(config.temperature),
       period_s_(config.controller.period_s),
       missed_limit_(config.missed_readings_limit),
@@ -35,17 +37,17 @@ void JointDrive::read(bool controlled, double velocity_rad_s, const CycleTime& t
   const ActuatorReading reading = actuator_->read(time.now_ns);
   fresh_ = reading.has_position && not_finite(reading) == ReadingDoubt::kNone;
   const double last_position_rad = std::exchange(reading_, reading).joint_position_rad;
-  const double moved_rad =
-      controlled ? velocity_rad_s * static_cast<double>(time.elapsed_periods) * period_s_ : 0.0;
-  if (!fresh_) go_on_without(last_position_rad, moved_rad);
+  const double elapsed_s = static_cast<double>(time.elapsed_periods) * period_s_;
+  if (!fresh_) go_on_without(last_position_rad, controlled ? velocity_rad_s * elapsed_s : 0.0);
+  if (controlled || !fresh_)
+    velocity_rad_s_ = 0.0;
+  else if (missed_ == 0)
+    velocity_rad_s_ +=
+        (position_rad() - last_position_rad - velocity_rad_s_ * elapsed_s) / (kMean_s + elapsed_s);
   const std::int64_t missed = missed_ + time.elapsed_periods;
   missed_ = fresh_ ? 0 : static_cast<int>(std::min<std::int64_t>(missed, missed_limit_ + 1));
   // A brake that is shut holds the joint whatever the torque.
   doubt(reading, reading.drive_state == DriveState::kEnabled && controlled && !reading.brake_shut, time);
-  if (fresh_ && !controlled)
-    speed_gauge_.see(position_rad(), time.now_ns);
-  else
-    speed_gauge_.forget();
   temperature_.update(reading.has_temperature, reading.temperature_C, reading.temperature_produced_ns,
                       time.now_ns);
 }

@@ -8,7 +8,6 @@
 
 #include "daemon/realtime/joint/joint_loop_config.h"
 #include "daemon/realtime/joint/position_check.h"
-#include "daemon/realtime/joint/speed_gauge.h"
 #include "daemon/realtime/joint/temperature_check.h"
 #include "daemon/realtime/loop/cycle_time.h"
 #include "drivers/actuator.h"
@@ -39,9 +38,9 @@ class JointDrive {
 
   const ActuatorReading& reading() const noexcept { return reading_; }
   double position_rad() const noexcept { return reading_.joint_position_rad; }
-  /// By the drive, or else by positions, as long as the control law does not run.
+  /// By the drive, or else by positions in the mean of some 20 ms, as long as the control law does not run.
   double velocity_rad_s() const noexcept {
-    return reading_.has_velocity ? reading_.joint_velocity_rad_s : speed_gauge_.velocity_rad_s();
+    return reading_.has_velocity ? reading_.joint_velocity_rad_s : velocity_rad_s_;
   }
   /// There is a position of this period.
   bool fresh() const noexcept { return fresh_; }
@@ -59,10 +58,10 @@ class JointDrive {
   std::unique_ptr<Actuator> actuator_;
   FaultyActuator* injector_;  ///< the same object when it takes injected faults, else null
   PositionCheck position_check_;
-  SpeedGauge speed_gauge_;
   TemperatureCheck temperature_;
   ActuatorReading reading_;
   double period_s_;
+  double velocity_rad_s_ = 0.0;  ///< of a joint that is not under control, by positions
   bool fresh_ = false;
   int missed_limit_;
   int missed_;  ///< periods in a row, counted to one beyond the limit, where it begins: no reading has come

@@ -1,22 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/joint/joint_in_loop.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace strainwave {
-
-namespace {
-
-/// What an encoder cannot tell.
-constexpr double kCountsOffTarget = 2.0;
-
-MotionWatchConfig watch_config(const JointLoopConfig& config) noexcept {
-  return {config.limits.following_error_rad, config.overload_s, config.blocked_s, config.standstill_rad_s,
-          std::max(config.rest_tolerance_rad, kCountsOffTarget * config.controller.encoder_resolution_rad)};
-}
-
-}  // namespace
 
 JointInLoop::JointInLoop(std::int64_t joint, const JointLoopConfig& joint_config,
                          std::unique_ptr<Actuator> actuator, EventQueue& event_queue)
@@ -27,7 +14,7 @@ JointInLoop::JointInLoop(std::int64_t joint, const JointLoopConfig& joint_config
       law(config),
       zero(config.homing.required),
       homing(config.homing),
-      motion_watch(watch_config(config)) {}
+      motion_watch(config) {}
 
 bool JointInLoop::change_mode(ModeEvent event, const CycleTime& time) noexcept {
   const Mode from = mode.mode();

@@ -87,12 +87,7 @@ void JointLaw::forget_learned() noexcept {
   LearnedFriction none;
   if (closes_loop_) none.load_Nm = controller_.friction().load_Nm();
   controller_.friction().set(none);
-  friction_ = {.frozen = friction_.frozen};
-}
-
-void JointLaw::freeze_learning(bool frozen) noexcept {
-  friction_.frozen = frozen;
-  controller_.friction().freeze(frozen);
+  friction_ = {};
 }
 
 bool JointLaw::shows_other_inertia() const noexcept {

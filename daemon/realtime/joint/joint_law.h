@@ -57,7 +57,6 @@ class JointLaw {
   /// What an earlier run of the daemon learned, with the rules of the first table.
   void restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept;
   void forget_learned() noexcept;
-  void freeze_learning(bool frozen) noexcept;
 
   std::optional<double> inertia_kgm2() const noexcept { return inertia_.inertia_kgm2(); }
   /// The inertia that motions show is another one than configured, by more than the estimate may be off.

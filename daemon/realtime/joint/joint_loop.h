@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/joint/joint_in_loop.h"
@@ -71,5 +72,13 @@ class JointLoop {
   StateRecord record_{};
   double driving_share_ = 1.0;
 };
+
+/// After every joint has made its step. Where a joint has faulted in this cycle, the others of its group fault (kGroup) and their drives are
+/// stopped. Joints that are off stay off. Real-time safe.
+void stop_groups_of_the_faulted(std::span<const std::unique_ptr<JointLoop>> joints,
+                                const CycleTime& time) noexcept;
+/// A fault of the loop itself, for every joint that is not off. Real-time safe.
+void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,
+                         const CycleTime& time) noexcept;
 
 }  // namespace strainwave

@@ -204,7 +204,7 @@ Ruling obey(JointInLoop& joint, const Order& order, const CycleTime& time,
       return reset_learning(joint);
     case OrderKind::kFreezeLearning:
     case OrderKind::kResumeLearning:
-      joint.law.freeze_learning(order.kind == OrderKind::kFreezeLearning);
+      joint.law.controller().friction().freeze(order.kind == OrderKind::kFreezeLearning);
       return Reason::kAccepted;
     case OrderKind::kEndStream:
       return joint.ordered.streamed() ? hold(joint) : Reason::kAccepted;

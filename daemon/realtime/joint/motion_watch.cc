@@ -16,6 +16,8 @@ constexpr double kForgets = 0.1;
 /// Share of a span at the limit, less the time on its other side, from which on the span counts: readings that flicker leave the limit for a
 /// period.
 constexpr double kPushed = 0.5;
+/// What an encoder cannot tell.
+constexpr double kCountsOffTarget = 2.0;
 /// The last count is found, or given up, in less.
 constexpr double kOffTarget_s = 1.0;
 /// A wall of 200 N.m/rad pushes a joint out in 70 ms, which then runs out and swings for some 0.3 s. What takes longer is no blow, and what a
@@ -41,7 +43,8 @@ Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std
   // Each check runs every period, whatever the other one finds.
   const bool stands = blocked(motion, joint_position_rad, now_ns);
   const bool heavy = overloaded(motion, now_ns);
-  if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) > config_.following_error_rad)
+  if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) >
+      config_.limits.following_error_rad)
     return Fault::kFollowingError;
   if (stands) return Fault::kBlocked;
   return heavy ? Fault::kOverload : Fault::kNone;
@@ -49,7 +52,7 @@ Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std
 
 // Whether a span at the limit, in `direction`, was: a free joint gets on, or goes less fast against it.
 bool MotionWatch::pushed_in_vain(double direction, double moved_rad) const noexcept {
-  const double progress_rad = config_.progress_rad_s * span_s();
+  const double progress_rad = config_.standstill_rad_s * span_s();
   return direction * moved_rad < progress_rad && direction * (moved_rad - moved_before_rad_) < progress_rad;
 }
 
@@ -80,7 +83,9 @@ bool MotionWatch::blocked(const JointStep& motion, double joint_position_rad, st
 }
 
 bool MotionWatch::off_target(bool holding, double distance_rad, std::int64_t now_ns) noexcept {
-  if (!holding || std::abs(distance_rad) <= config_.rest_tolerance_rad) in_place_ns_ = now_ns;
+  const double tolerance_rad =
+      std::max(config_.rest_tolerance_rad, kCountsOffTarget * config_.controller.encoder_resolution_rad);
+  if (!holding || std::abs(distance_rad) <= tolerance_rad) in_place_ns_ = now_ns;
   return seconds(now_ns - in_place_ns_) >= kOffTarget_s;
 }
 

@@ -4,11 +4,11 @@
 //
 //   following    |ordered reference - position| > following_error_rad                                -> kFollowingError
 //   blocked      torque at its limit in vain: the joint neither gets on in its direction, by
-//                progress_rad_s, nor is braked by it; for blocked_s in all, of which a tenth of the
+//                standstill_rad_s, nor is braked by it; for blocked_s in all, of which a tenth of the
 //                time that it was otherwise is forgotten                                             -> kBlocked
 //   load         |load that shows| > load_Nm for overload_s, or a joint yields for 0.5 s             -> kOverload
 //   high load    |load that shows| > notice_Nm                                                       no fault, a notice
-//   off target   |place to hold - position| > rest_tolerance_rad for kOffTarget_s                    no fault, a notice
+//   off target   |place to hold - position| > rest_tolerance_rad, at least two counts, for a second  no fault, a notice
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,15 @@
 
 #include "base/durations.h"
 #include "control/joint_controller.h"
-#include "daemon/realtime/joint/load_limits.h"
+#include "daemon/realtime/joint/joint_loop_config.h"
 #include "strainwave/vocabulary.h"
 
 namespace strainwave {
 
-struct MotionWatchConfig {
-  double following_error_rad = 0.0;  ///< > 0
-  double overload_s = 0.02;          ///< >= 0
-  double blocked_s = 0.5;            ///< > 0
-  double progress_rad_s = 0.01;      ///< > 0; slower is no progress
-  double rest_tolerance_rad = 1e-3;  ///< > 0
-};
-
 class MotionWatch {
  public:
-  explicit MotionWatch(const MotionWatchConfig& config) noexcept : config_(config) {}
+  /// `config` outlives this object.
+  explicit MotionWatch(const JointLoopConfig& config) noexcept : config_(config) {}
 
   /// Before the control law begins, and with every table.
   void limit_loads(const LoadLimits& loads) noexcept { loads_ = loads; }
@@ -56,7 +49,7 @@ class MotionWatch {
   double span_s() const noexcept;
   bool overloaded(const JointStep& motion, std::int64_t now_ns) noexcept;
 
-  MotionWatchConfig config_;
+  const JointLoopConfig& config_;
   LoadLimits loads_;
   double pushed_s_ = 0.0;  ///< of this span, at the torque limit; of the torque's sign
   double in_vain_s_ = 0.0;

@@ -24,8 +24,10 @@ constexpr int kSettlingPeriods = 5;
 
 }  // namespace
 
-PositionCheck::PositionCheck(const PositionCheckConfig& config) noexcept
-    : config_(config), count_rad_(std::max(config.resolution_rad, kFinestCount_rad)) {}
+PositionCheck::PositionCheck(const JointLoopConfig& config) noexcept
+    : period_s_(config.controller.period_s),
+      overspeed_rad_s_(config.limits.overspeed_rad_s),
+      count_rad_(std::max(config.controller.encoder_resolution_rad, kFinestCount_rad)) {}
 
 bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven,
                               std::int64_t now_ns) noexcept {
@@ -42,11 +44,11 @@ bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven
 }
 
 double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {
-  return std::max(config_.period_s, seconds(now_ns - last_ns_));
+  return std::max(period_s_, seconds(now_ns - last_ns_));
 }
 
 bool PositionCheck::jumped(double position_rad, double elapsed_s) const noexcept {
-  const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s + kJumpCounts * count_rad_;
+  const double allowed_rad = kJumpFactor * overspeed_rad_s_ * elapsed_s + kJumpCounts * count_rad_;
   return std::abs(position_rad - last_position_rad_) > allowed_rad;
 }
 

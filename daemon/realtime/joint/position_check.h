@@ -15,19 +15,14 @@
 #include <array>
 #include <cstdint>
 
+#include "daemon/realtime/joint/joint_loop_config.h"
 #include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
-struct PositionCheckConfig {
-  double period_s = 0.001;
-  double overspeed_rad_s = 1.0;  ///< of the joint's limits
-  double resolution_rad = 0.0;   ///< one count; 0: exact
-};
-
 class PositionCheck {
  public:
-  explicit PositionCheck(const PositionCheckConfig& config) noexcept;
+  explicit PositionCheck(const JointLoopConfig& config) noexcept;
 
   /// Inertia and the largest static friction of the joint, of its gain table.
   void set_joint(double inertia_kgm2, double static_friction_Nm) noexcept {
@@ -51,7 +46,8 @@ class PositionCheck {
   /// A torque that lasts so long would have moved the joint by counts.
   static constexpr std::size_t kLastingPeriods = 8;
 
-  PositionCheckConfig config_;
+  double period_s_;
+  double overspeed_rad_s_;
   double count_rad_;
   double inertia_kgm2_ = 1.0;
   double static_friction_Nm_ = 0.0;

@@ -14,23 +14,6 @@ namespace strainwave {
 
 using HistogramCounts = std::array<std::int64_t, kHistogramBuckets>;
 
-/// The value below which `fraction` of the counted durations lie, interpolated within its bucket; 0 when empty.
-inline double percentile_ns(const HistogramCounts& counts, double fraction) {
-  std::int64_t total = 0;
-  for (const std::int64_t count : counts) total += count;
-  const double wanted = fraction * static_cast<double>(total);
-  double seen = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto count = static_cast<double>(counts[i]);
-    if (count > 0.0 && seen + count >= wanted) {
-      const double lower_ns = i == 0 ? 0.0 : bucket_upper_ns(i - 1);
-      return lower_ns + (bucket_upper_ns(i) - lower_ns) * (wanted - seen) / count;
-    }
-    seen += count;
-  }
-  return 0.0;
-}
-
 class Histogram {
  public:
   Histogram() noexcept {

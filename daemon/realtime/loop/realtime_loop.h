@@ -18,7 +18,6 @@
 #include "daemon/realtime/loop/loop_parts.h"
 #include "daemon/realtime/loop/overrun_watch.h"
 #include "daemon/realtime/loop/periodic_clock.h"
-#include "daemon/realtime/path/joint_group.h"
 #include "daemon/realtime/path/path_follower.h"
 
 namespace strainwave {

@@ -59,7 +59,7 @@ void fill_friction(const JointInLoop& joint, std::int64_t now_ns, StateRecord& r
   state.friction_factor = friction.factor();
   state.friction_learned_C = history.learned_C;
   state.friction_age_s = history.age_s(now_ns);
-  state.friction_frozen = history.frozen ? 1 : 0;
+  state.friction_frozen = friction.frozen() ? 1 : 0;
   std::copy(friction.learned().scale.begin(), friction.learned().scale.end(), state.friction_scales);
   state.learned_load_Nm = friction.learned().load_Nm;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/joint/joint_drive.h"
 
+#include <cmath>
 #include <limits>
 
 #include "lcmtypes/reading_doubt.h"
@@ -54,6 +55,32 @@ TEST_F(JointDriveTest, CarriesAMissingPositionOnByTheVelocityOfAControlledJointO
   EXPECT_DOUBLE_EQ(take(false, 2.0).joint_position_rad, 0.504);
   EXPECT_FALSE(drive_.fresh());
   EXPECT_EQ(drive_.reading().fault, ActuatorFault::kNone);
+}
+
+TEST_F(JointDriveTest, MeasuresTheSpeedOfACoastingJointThroughItsCounts) {
+  constexpr double kCount_rad = 2e-5;
+  const auto coast = [&](double velocity_rad_s, int periods) {
+    const double from_rad = reading_.joint_position_rad;
+    for (int i = 1; i <= periods; ++i) {
+      reading_.joint_position_rad =
+          kCount_rad * std::round((from_rad + velocity_rad_s * 1e-3 * i) / kCount_rad);
+      take(false);
+    }
+  };
+  reading_.joint_position_rad = 3.0;
+  take(false);
+  EXPECT_EQ(drive_.velocity_rad_s(), 0.0) << "one position is no motion";
+  for (const double velocity_rad_s : {0.02, -0.5, 3.6, 0.0}) {
+    coast(velocity_rad_s, 500);
+    EXPECT_NEAR(drive_.velocity_rad_s(), velocity_rad_s, kCount_rad / 0.02);
+  }
+  reading_.has_position = false;
+  take(false);
+  EXPECT_EQ(drive_.velocity_rad_s(), 0.0);
+  reading_.has_position = true;
+  reading_.joint_position_rad = 1.0;
+  take(false);
+  EXPECT_EQ(drive_.velocity_rad_s(), 0.0) << "it may have been moved by hand";
 }
 
 TEST_F(JointDriveTest, CountsMissesInARowAndForgivesThemWhenTold) {

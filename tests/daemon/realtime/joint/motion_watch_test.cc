@@ -4,17 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace strainwave {
 namespace {
 
 class MotionWatchTest : public ::testing::Test {
  protected:
-  MotionWatchTest() : watch_({0.1, 0.02, 0.5, 0.01}) {
-    watch_.limit_loads({20.0, 15.0});
-    watch_.begin(position_rad_, now_ns_);
+  MotionWatchTest() {
+    config_.limits.following_error_rad = 0.1;
+    make();
   }
-  Fault judge() { return watch_.judge(motion_, position_rad_, now_ns_ += 1'000'000); }
+  void make() {
+    watch_.emplace(config_).limit_loads({20.0, 15.0});
+    watch_->begin(position_rad_, now_ns_);
+  }
+  Fault judge() { return watch_->judge(motion_, position_rad_, now_ns_ += 1'000'000); }
   /// Periods until the first fault, 0 when none comes in `limit` of them; `each` changes things before.
   template <typename Each>
   int periods_until(Fault fault, int limit, Each each) {
@@ -31,7 +36,8 @@ class MotionWatchTest : public ::testing::Test {
     motion_.output.torque_Nm = torque_Nm;
     motion_.output.saturated = true;
   }
-  MotionWatch watch_;
+  JointLoopConfig config_;
+  std::optional<MotionWatch> watch_;
   JointStep motion_;
   double position_rad_ = 0.0;
   std::int64_t now_ns_ = 1'000'000'000;
@@ -75,9 +81,7 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000, [&] { push(++period % 400 < 200 ? 34.0 : -34.0); }), 500,
               100)
       << "from either side";
-  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
-  watch_.limit_loads({20.0, 15.0});
-  watch_.begin(position_rad_, now_ns_);
+  make();
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
                               push(34.0);
@@ -85,14 +89,12 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
                             }),
               560, 20)
       << "where readings flicker";
-  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
-  watch_.limit_loads({20.0, 15.0});
-  watch_.begin(position_rad_, now_ns_);
+  make();
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
                               push(34.0);
                               motion_.output.saturated = ++period % 500 < 420;
-                              if (period % 500 == 450) watch_.begin(position_rad_, now_ns_);
+                              if (period % 500 == 450) watch_->begin(position_rad_, now_ns_);
                             }),
               590, 40)
       << "in bursts, enabled anew between them";
@@ -111,7 +113,7 @@ TEST_F(MotionWatchTest, ForgetsWhatIsPushedInVainForLessThanATenthOfTheTime) {
 TEST_F(MotionWatchTest, CallsNoJointBlockedThatIsHurledToAndFroByAllOfItsTorque) {
   for (const double acceleration_rad_s2 : {5.0, 30.0, 380.0})
     for (const double frequency_Hz : {0.5, 2.0, 8.0}) {
-      watch_.begin(position_rad_, now_ns_);
+      watch_->begin(position_rad_, now_ns_);
       int period = 0;
       double velocity_rad_s = -0.25 * acceleration_rad_s2 / frequency_Hz;
       EXPECT_EQ(periods_until(Fault::kNone, 20'000,
@@ -143,7 +145,7 @@ TEST_F(MotionWatchTest, BoundsTheLoadOverTime) {
 // One push makes both: which is seen first says how far the joint falls behind while the load lasts.
 TEST_F(MotionWatchTest, CallsAPushWhatItIsFirstAndAFollowingErrorWhereItIsBothAtOnce) {
   const auto falls_behind_by = [&](double each_period_rad, Fault fault) {
-    watch_.begin(position_rad_ = 0.0, now_ns_);
+    watch_->begin(position_rad_ = 0.0, now_ns_);
     motion_.load_Nm = 25.0;
     return periods_until(fault, 5000, [&] { position_rad_ -= each_period_rad; });
   };
@@ -155,19 +157,19 @@ TEST_F(MotionWatchTest, CallsAPushWhatItIsFirstAndAFollowingErrorWhereItIsBothAt
 TEST_F(MotionWatchTest, CallsALoadHighAboveTheNoticeOnly) {
   motion_.load_Nm = -14.9;
   EXPECT_EQ(judge(), Fault::kNone);
-  EXPECT_FALSE(watch_.high_load());
+  EXPECT_FALSE(watch_->high_load());
   motion_.load_Nm = -15.1;
   EXPECT_EQ(judge(), Fault::kNone);
-  EXPECT_TRUE(watch_.high_load());
+  EXPECT_TRUE(watch_->high_load());
 }
 
 TEST_F(MotionWatchTest, RemembersWhatTheJointCarriedBeforeTheBlow) {
   motion_.load_Nm = 5.0;
   EXPECT_EQ(judge(), Fault::kNone);
-  EXPECT_EQ(watch_.usual_load_Nm(), 5.0) << "from the first period on";
+  EXPECT_EQ(watch_->usual_load_Nm(), 5.0) << "from the first period on";
   motion_.load_Nm = 25.0;
   for (int k = 0; k < 15; ++k) EXPECT_EQ(judge(), Fault::kNone);
-  EXPECT_EQ(watch_.usual_load_Nm(), 5.0);
+  EXPECT_EQ(watch_->usual_load_Nm(), 5.0);
 }
 
 TEST_F(MotionWatchTest, LetsAJointYieldForAWhile) {
@@ -179,13 +181,13 @@ TEST_F(MotionWatchTest, LetsAJointYieldForAWhile) {
 TEST_F(MotionWatchTest, CallsAJointOffTargetThatHasHeldElsewhereForASecond) {
   const auto periods_until_told = [&](bool holding, double distance_rad) {
     for (int period = 1; period <= 5000; ++period)
-      if (watch_.off_target(holding, distance_rad, now_ns_ += 1'000'000)) return period;
+      if (watch_->off_target(holding, distance_rad, now_ns_ += 1'000'000)) return period;
     return 0;
   };
   EXPECT_EQ(periods_until_told(true, 0.0009), 0) << "within 1 mrad";
   EXPECT_EQ(periods_until_told(false, 0.002), 0) << "on its way";
   EXPECT_EQ(periods_until_told(true, -0.0011), 1000);
-  EXPECT_FALSE(watch_.off_target(true, 0.0, now_ns_ += 1'000'000)) << "it came";
+  EXPECT_FALSE(watch_->off_target(true, 0.0, now_ns_ += 1'000'000)) << "it came";
   EXPECT_EQ(periods_until_told(true, 0.0011), 1000) << "a second anew";
 }
 

@@ -13,11 +13,10 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 
-PositionCheckConfig config() {
-  PositionCheckConfig config;
-  config.period_s = 0.001;
-  config.overspeed_rad_s = 5.0;
-  config.resolution_rad = 2e-5;
+JointLoopConfig config() {
+  JointLoopConfig config;
+  config.limits.overspeed_rad_s = 5.0;
+  config.controller.encoder_resolution_rad = 2e-5;
   return config;
 }
 
@@ -75,8 +74,8 @@ TEST(PositionCheck, BelievesEverySoundJoint) {
   for (const double temperature_C : {-10.0, 20.0, 45.0}) {
     for (const double load_Nm : {0.0, 8.0, -15.0}) {
       JointPlant plant(realistic_plant());
-      PositionCheckConfig wide = config();
-      wide.overspeed_rad_s = 50.0;
+      JointLoopConfig wide = config();
+      wide.limits.overspeed_rad_s = 50.0;
       PositionCheck check(wide);
       const FrictionParameters friction = plant.config().joint.friction.at(temperature_C);
       check.set_joint(plant.config().joint.inertia_kgm2, friction.static_Nm);

@@ -33,16 +33,6 @@ TEST(Histogram, KeepsTheMaximumAndCountsWhatIsBeyondTheLastBucket) {
   EXPECT_EQ(histogram.counts().front(), 1);
 }
 
-TEST(Histogram, PercentilesLieInTheirBucketAndGrowWithTheFraction) {
-  Histogram histogram;
-  for (int i = 1; i <= 1000; ++i) histogram.add(i * 1000);
-  const HistogramCounts counts = histogram.counts();
-  EXPECT_GE(percentile_ns(counts, 0.5), 500e3 / 1.19);
-  EXPECT_LE(percentile_ns(counts, 0.5), 500e3 * 1.19);
-  EXPECT_LE(percentile_ns(counts, 0.5), percentile_ns(counts, 0.99));
-  EXPECT_EQ(percentile_ns(HistogramCounts{}, 0.5), 0.0);
-}
-
 TEST(Histogram, CanBeReadWhileItIsWritten) {
   Histogram histogram;
   std::thread writer([&] {
