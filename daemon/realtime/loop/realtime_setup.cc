@@ -2,7 +2,6 @@
 #include "daemon/realtime/loop/realtime_setup.h"
 
 #include <fcntl.h>
-#include <linux/capability.h>
 #include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
@@ -14,7 +13,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <system_error>
 #include <thread>
@@ -65,26 +63,6 @@ std::string processor_problem(int cpu) {
   return problem;
 }
 
-RealTimeRights real_time_rights() {
-  RealTimeRights rights;
-  rights.cap_sys_nice = (std::strtoull(own_status("CapEff").c_str(), nullptr, 16) >> CAP_SYS_NICE & 1U) != 0;
-  rlimit limit{};
-  ::getrlimit(RLIMIT_RTPRIO, &limit);
-  rights.rtprio = limit.rlim_cur;
-  return rights;
-}
-
-std::string real_time_remedy(const RealTimeRights& rights, int priority) {
-  const std::string wanted = std::to_string(priority);
-  if (!rights.cap_sys_nice && rights.rtprio < static_cast<rlim_t>(priority))
-    return "the process has neither CAP_SYS_NICE nor RLIMIT_RTPRIO of " + wanted + " (it is " +
-           std::to_string(rights.rtprio) + "): run under the service, or after `ulimit -r " + wanted +
-           "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted;
-  return "CAP_SYS_NICE or RLIMIT_RTPRIO is there: a seccomp filter of the container is in the way, or a "
-         "cgroup without "
-         "real-time budget (container: --cpu-rt-runtime=950000)";
-}
-
 std::string lock_memory() {
   // The kernel merges and splits huge pages at any time, and a thread that touches one meanwhile waits.
   if (::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0)
@@ -112,9 +90,15 @@ std::string make_thread_real_time(int priority, int cpu) {
   if (std::string problem = pin_this_thread(cpu); !problem.empty()) return problem;
   sched_param parameter{};
   parameter.sched_priority = priority;
-  if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter))
-    return "SCHED_FIFO priority " + std::to_string(priority) + " is refused (" + error_text(error) +
-           "): " + real_time_remedy(real_time_rights(), priority);
+  if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter)) {
+    const std::string wanted = std::to_string(priority);
+    return "SCHED_FIFO priority " + wanted + " is refused (" + error_text(error) +
+           "): the process needs CAP_SYS_NICE or RLIMIT_RTPRIO of " + wanted +
+           ": run under the service, or after `ulimit -r " + wanted +
+           "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted +
+           ". Where that is given, a seccomp filter is in the way, or a cgroup without real-time budget "
+           "(container: --cpu-rt-runtime=950000)";
+  }
   return "";
 }
 

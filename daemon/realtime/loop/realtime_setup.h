@@ -2,8 +2,6 @@
 // What Linux must grant before a loop can be real-time. Not real-time itself: called before the first period.
 #pragma once
 
-#include <sys/resource.h>
-
 #include <string>
 
 #include "base/unique_fd.h"
@@ -25,16 +23,6 @@ std::string make_thread_real_time(int priority, int cpu);
 /// Why no thread of this process may run on `cpu`, and what to do; empty when one may, or `cpu` is negative. Asks the kernel from a
 /// thread of its own, so that nothing changes.
 std::string processor_problem(int cpu);
-
-/// What Linux asks before it grants SCHED_FIFO.
-struct RealTimeRights {
-  bool cap_sys_nice = false;  ///< in the effective set: root of a container often lacks it
-  rlim_t rtprio = 0;          ///< RLIMIT_RTPRIO, which serves without the capability
-};
-/// Of this process.
-RealTimeRights real_time_rights();
-/// Which of them is missing for `priority`, and what to do.
-std::string real_time_remedy(const RealTimeRights& rights, int priority);
 
 /// Keeps the processors out of deep sleep states while the descriptor stays open: their wake-up would add to every period. `refusal`
 /// is empty when that is granted, else why not and what to do; a machine without that file (a virtual one) has nothing to ask for.
