@@ -65,30 +65,18 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_
   }
   unchanged_periods_ = std::min(unchanged_periods_ + 1, kSettlingPeriods + 1);
   if (unchanged_periods_ <= kSettlingPeriods) {
-    torques_Nm_.fill(torque_Nm);
-    torque_min_Nm_ = torque_Nm;
-    torque_max_Nm_ = torque_Nm;
+    rest_torque_Nm_ = torque_Nm;
     return false;
   }
-  hold_extremes(torque_Nm);
-  const double up_Nm = torque_Nm - torque_min_Nm_;
-  const double down_Nm = torque_max_Nm_ - torque_Nm;
-  const double excess_Nm = std::max(up_Nm, down_Nm) - 2.0 * kFrictionFactor * static_friction_Nm_;
+  const double change_Nm = torque_Nm - rest_torque_Nm_;
+  const double excess_Nm = std::abs(change_Nm) - 2.0 * kFrictionFactor * static_friction_Nm_;
   if (excess_Nm <= 0.0) {
     owed_velocity_rad_s_ = 0.0;  // it may have come to rest again
     return false;
   }
-  owed_velocity_rad_s_ += std::copysign(excess_Nm, up_Nm - down_Nm) / inertia_kgm2_ * elapsed_s;
+  owed_velocity_rad_s_ += std::copysign(excess_Nm, change_Nm) / inertia_kgm2_ * elapsed_s;
   owed_motion_rad_ += owed_velocity_rad_s_ * elapsed_s;
   return std::abs(owed_motion_rad_) > kStuckCounts * count_rad_;
-}
-
-void PositionCheck::hold_extremes(double torque_Nm) noexcept {
-  std::rotate(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
-  torques_Nm_.front() = torque_Nm;
-  const auto [low, high] = std::minmax_element(torques_Nm_.begin(), torques_Nm_.end());
-  torque_min_Nm_ = std::min(torque_min_Nm_, *high);
-  torque_max_Nm_ = std::max(torque_max_Nm_, *low);
 }
 
 }  // namespace strainwave

@@ -6,13 +6,12 @@
 // Stuck: a joint at rest under a constant load L and torque T0 has |T0 - L| <= Fs. When the torque
 // then becomes T, at least |T - T0| - 2 Fs of it accelerates the joint, whatever L is:
 //     displacement >= integral integral max(0, |T - T0| - 2 Fs) / J  dt dt
-// A sensor that shows no change although that displacement, those to either side against each other, is many counts is stuck. T0 is the
-// lowest (highest) torque that has lasted since the reading last changed: a push of some milliseconds moves a joint within a
-// coarse count, and friction stops it there. A joint that stands with the load balanced is never taken for stuck. A sensor that stops
-// while the joint rests shows with the next motion.
+// A sensor that shows no change although that displacement, those to either side against each other, is many counts is stuck: a push of some
+// milliseconds moves a joint within a coarse count, and friction stops it there. T0 is the torque with which the reading came to
+// stand. A joint that stands with the load balanced is never taken for stuck. A sensor that stops while the joint rests shows with the
+// next motion.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "daemon/realtime/joint/joint_loop_config.h"
@@ -41,10 +40,6 @@ class PositionCheck {
   bool stuck(double position_rad, double torque_Nm, double elapsed_s) noexcept;
   double elapsed_s(std::int64_t now_ns) const noexcept;
   void begin_stretch() noexcept;
-  void hold_extremes(double torque_Nm) noexcept;
-
-  /// A torque that lasts so long would have moved the joint by counts.
-  static constexpr std::size_t kLastingPeriods = 8;
 
   double period_s_;
   double overspeed_rad_s_;
@@ -57,9 +52,7 @@ class PositionCheck {
   std::uint32_t doubt_ = 0;
   // Of the stretch without a change:
   int unchanged_periods_ = 0;
-  std::array<double, kLastingPeriods> torques_Nm_{};  ///< the last ones
-  double torque_min_Nm_ = 0.0;                        ///< that lasted
-  double torque_max_Nm_ = 0.0;
+  double rest_torque_Nm_ = 0.0;       ///< T0
   double owed_velocity_rad_s_ = 0.0;  ///< that a joint must have by now, with its side
   double owed_motion_rad_ = 0.0;
 };
