@@ -74,7 +74,8 @@ void FrictionKeeper::restore(std::size_t joint, const FuzzyFriction& rules, Join
   const auto kept = read_kept(friction_file(directory_, mine.name), mine.name, friction_rules_digest(rules));
   if (!kept) return;
   const std::int64_t age_us = std::max<std::int64_t>(0, utime_now() - kept->learned_utime);
-  loop.restore({kept->scale, 0.0}, {.learned_C = kept->learned_C, .learned_ns = now_ns - 1000 * age_us});
+  loop.joint().law.restore({kept->scale, 0.0},
+                           {.learned_C = kept->learned_C, .learned_ns = now_ns - 1000 * age_us});
   mine.kept = kept->scale;
   spdlog::info("{}: friction as it was learned at {:.1f} degC, {} h ago", mine.name, kept->learned_C,
                age_us / 3'600'000'000);

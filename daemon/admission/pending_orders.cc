@@ -161,7 +161,7 @@ bool PendingOrders::prepare_table(Verdict& verdict, std::int64_t& table_id) {
 }
 
 bool PendingOrders::prepare_path(Verdict& verdict) {
-  const auto slot = loop_.joint(verdict.requester.joint).path_slots().hand_over(*verdict.path);
+  const auto slot = loop_.joint(verdict.requester.joint).joint().path_slots.hand_over(*verdict.path);
   verdict.order.path_slot = slot.value_or(0);
   return slot.has_value();
 }
@@ -169,7 +169,7 @@ bool PendingOrders::prepare_path(Verdict& verdict) {
 void PendingOrders::undo_preparation(const Verdict& verdict) {
   const std::size_t joint = verdict.requester.joint;
   if (verdict.order.kind == OrderKind::kUseTable) books_[joint].end(false);
-  if (verdict.order.kind == OrderKind::kLoadPath) loop_.joint(joint).path_slots().take_back();
+  if (verdict.order.kind == OrderKind::kLoadPath) loop_.joint(joint).joint().path_slots.take_back();
 }
 
 void PendingOrders::take_replies(std::int64_t now_ns) {

@@ -156,7 +156,7 @@ class Bed {
     time_.cycle += periods;
     time_.now_ns += periods * 1'000'000;
     if (const Fault fault = watch_.judge(periods - 1); fault != Fault::kNone && joint_->mode() != Mode::kOff)
-      joint_->raise_fault(fault, time_);
+      joint_->joint().raise_fault(fault, time_);
     joint_->step(time_);
     Reply reply;
     while (replies_->pop(reply)) {

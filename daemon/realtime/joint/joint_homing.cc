@@ -34,7 +34,7 @@ bool presses_unseen(const JointInLoop& joint) noexcept {
 
 Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept {
   if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
-  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (joint.ending) return Reason::kEnding;
   if (!joint.homing.possible() || presses_unseen(joint)) return Reason::kNoHoming;
   if (!joint.change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
   joint.zero.forget();

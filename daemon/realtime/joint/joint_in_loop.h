@@ -25,7 +25,6 @@ namespace strainwave {
 class PathFollower;
 
 struct JointInLoop {
-  enum class Service { kServing, kEnding };
   struct StreamNotes {
     bool approaches = false;        ///< it began far from the joint, which is not on it yet
     std::int64_t late_samples = 0;  ///< of all streams since the start
@@ -72,7 +71,7 @@ struct JointInLoop {
   PathFollower* follower = nullptr;  ///< of all joints; set before the loop runs, outlives this object
   std::optional<Yield> yield;        ///< since the last order that moved the joint, or cleared a fault
   StreamNotes stream;
-  Service service = Service::kServing;
+  bool ending = false;              ///< the loop is: orders that move the joint are refused
   std::int64_t faulted_cycle = -1;  ///< the last in which it faulted
   std::int32_t notices = 0;         ///< of this period
 

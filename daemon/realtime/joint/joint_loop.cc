@@ -82,8 +82,8 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
   // A drive that is off may be unreadable; it then cannot be enabled, which is enough.
   if (joint_.mode.is(Mode::kOff)) return;
   if (reading.fault != ActuatorFault::kNone)
-    return raise_fault(kFaults[static_cast<std::size_t>(reading.fault)], time);
-  if (joint_.drive.too_many_missed()) raise_fault(Fault::kReadFailed, time);
+    return joint_.raise_fault(kFaults[static_cast<std::size_t>(reading.fault)], time);
+  if (joint_.drive.too_many_missed()) joint_.raise_fault(Fault::kReadFailed, time);
 }
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
@@ -91,8 +91,8 @@ void JointLoop::check_temperature(const CycleTime& time) noexcept {
   if (driving_share_ < 1.0) joint_.notice(Notice::kDerated);
   if (joint_.mode.is(Mode::kOff)) return;
   if (temperature.hotter_than(joint_.config.limits.temperature_limit_C))
-    return raise_fault(Fault::kTemperatureLimit, time);
-  if (temperature.lost()) raise_fault(Fault::kTemperatureLost, time);
+    return joint_.raise_fault(Fault::kTemperatureLimit, time);
+  if (temperature.lost()) joint_.raise_fault(Fault::kTemperatureLost, time);
 }
 
 void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
@@ -110,7 +110,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   if (!joint_.config.controller.drive_closes_loop() && !joint_.mode.is(Mode::kHoming) &&
       joint_.drive.reading().inputs.limit_towards(torque_Nm))
     joint_.law.refuse_torque();
-  if (!std::isfinite(torque_Nm)) raise_fault(Fault::kNotFinite, time);
+  if (!std::isfinite(torque_Nm)) joint_.raise_fault(Fault::kNotFinite, time);
   note_limits(joint_);
 }
 
@@ -122,13 +122,13 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       if (joint_.drive.reading().drive_state == DriveState::kEnabled && joint_.drive.fresh())
         take_over(time);
       else if (seconds > joint_.config.start_timeout_s)
-        raise_fault(Fault::kStartTimeout, time);
+        joint_.raise_fault(Fault::kStartTimeout, time);
       return;
     case Mode::kReleasing:
       if (!joint_.drive.reading().brake_shut)
         (void)joint_.change_mode(ModeEvent::kDriveReady, time);
       else if (seconds > joint_.config.start_timeout_s)
-        raise_fault(Fault::kStartTimeout, time);
+        joint_.raise_fault(Fault::kStartTimeout, time);
       return;
     case Mode::kTracking:
       // A stream rests at its last setpoint until the next one comes or it expires.
@@ -140,7 +140,7 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       if (motion.at_target && std::abs(motion.joint_velocity_rad_s) < joint_.config.standstill_rad_s)
         (void)joint_.change_mode(ModeEvent::kStopped, time);
       else if (seconds > joint_.config.stop_timeout_s)
-        raise_fault(Fault::kStopTimeout, time);
+        joint_.raise_fault(Fault::kStopTimeout, time);
       return;
     case Mode::kOff:
     case Mode::kHolding:
@@ -180,7 +180,7 @@ void JointLoop::command_drive(const CycleTime& time) noexcept {
 }
 
 void JointLoop::end(const CycleTime& time) noexcept {
-  joint_.service = JointInLoop::Service::kEnding;
+  joint_.ending = true;
   (void)joint_.change_mode(ModeEvent::kDisableOrdered, time);
 }
 
@@ -210,8 +210,8 @@ void stop_groups_of_the_faulted(std::span<const std::unique_ptr<JointLoop>> join
     if (!faulted->joint().stops_group(time)) continue;
     for (const auto& other : joints) {
       if (other->joint().config.group != faulted->joint().config.group || other->joint().at_rest()) continue;
-      other->raise_fault(Fault::kGroup, time);
-      other->stop_drive();
+      other->joint().raise_fault(Fault::kGroup, time);
+      other->joint().drive.stop();
     }
   }
 }
@@ -219,7 +219,7 @@ void stop_groups_of_the_faulted(std::span<const std::unique_ptr<JointLoop>> join
 void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,
                          const CycleTime& time) noexcept {
   for (const auto& joint : joints)
-    if (joint->mode() != Mode::kOff) joint->raise_fault(fault, time);
+    if (joint->mode() != Mode::kOff) joint->joint().raise_fault(fault, time);
 }
 
 }  // namespace strainwave

@@ -27,24 +27,15 @@ class JointLoop {
   OrderQueue& orders() noexcept { return orders_; }
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
-  PathSlots& path_slots() noexcept { return joint_.path_slots; }
 
-  /// Before the loop runs: what an earlier run of the daemon learned, with the rules of the first table.
-  void restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept {
-    joint_.law.restore(learned, history);
-  }
   /// Before the loop runs: where every cycle is recorded. It outlives this object.
   void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
 
   // Real-time thread.
   void step(const CycleTime& time) noexcept;
-  /// The fault of something outside of this joint (overruns, group).
-  void raise_fault(Fault fault, const CycleTime& time) noexcept { joint_.raise_fault(fault, time); }
-  /// Zero torque and disable, at once; the last act of the loop.
-  void stop_drive() noexcept { joint_.drive.stop(); }
   /// The loop ends: the joint comes to rest, and from now on every order that could set it moving is refused. May be repeated.
   void end(const CycleTime& time) noexcept;
-  /// For paths, and for groups.
+  /// For paths, and for groups. Of the supervisor's: law.restore() before the loop runs, and its side of path_slots.
   JointInLoop& joint() noexcept { return joint_; }
   const JointInLoop& joint() const noexcept { return joint_; }
   Mode mode() const noexcept { return joint_.mode.mode(); }

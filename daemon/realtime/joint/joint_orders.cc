@@ -26,7 +26,7 @@ double move_speed_rad_s(const JointInLoop& joint) noexcept {
 
 Ruling enable(JointInLoop& joint, const CycleTime& time) noexcept {
   if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
-  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (joint.ending) return Reason::kEnding;
   if (joint.law.table() == nullptr) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
   if (joint.mode.is(Mode::kOff) && joint.drive.too_many_missed() &&
@@ -100,7 +100,7 @@ SampleFate follow_stream(JointInLoop& joint, const Order& order, double target_r
 
 Ruling begin_setpoint(JointInLoop& joint, const Order& order, const CycleTime& time) noexcept {
   if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
-  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (joint.ending) return Reason::kEnding;
   // A late packet of a stream that has ended must not set the joint moving again.
   if (!joint.ordered.takes(order.stream_id, order.begins_stream)) return stream_ended(joint, order.stream_id);
   if (!joint.zero.known()) return Reason::kNotHomed;
@@ -165,7 +165,7 @@ Reason clear_fault(JointInLoop& joint, const CycleTime& time) noexcept {
 }  // namespace
 
 Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept {
-  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (joint.ending) return Reason::kEnding;
   if (!joint.zero.known()) return Reason::kNotHomed;
   if (joint.mode.is(Mode::kTracking)) return Reason::kMoving;
   if (!joint.mode.is(Mode::kHolding)) return Reason::kWrongMode;

@@ -108,7 +108,7 @@ void RealtimeLoop::close_buses() {
 }
 
 void RealtimeLoop::stop_drives() noexcept {
-  for (const auto& joint : joints_) joint->stop_drive();
+  for (const auto& joint : joints_) joint->joint().drive.stop();
   for (const auto& bus : buses_) bus->end_cycle();
 }
 

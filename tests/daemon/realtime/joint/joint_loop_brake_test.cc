@@ -183,7 +183,7 @@ TEST_F(JointLoopBrake, IsShutInTheCycleOfAFault) {
   ASSERT_TRUE(drive_->open);
   ++time_.cycle;
   time_.now_ns += kMillisecond_ns;
-  loop_->raise_fault(Fault::kGroup, time_);
+  loop_->joint().raise_fault(Fault::kGroup, time_);
   loop_->step(time_);
   EXPECT_EQ(drive_->stops, 1);
   EXPECT_FALSE(drive_->open);

@@ -19,8 +19,8 @@ class JointLoopLearning : public ::testing::Test {
  protected:
   /// As after a restart of the daemon, 5 s after the joint last learned.
   void hold_with(double scale) {
-    bench_.joint(0).restore(learned_everywhere(scale),
-                            {.learned_C = 18.0, .learned_ns = bench_.time().now_ns - 5'000'000'000});
+    bench_.joint(0).joint().law.restore(
+        learned_everywhere(scale), {.learned_C = 18.0, .learned_ns = bench_.time().now_ns - 5'000'000'000});
     bench_.bring_to_hold(0);
   }
   Reason load(std::int32_t slot, std::int64_t friction_rules_id) {
@@ -55,7 +55,7 @@ TEST_F(JointLoopLearning, ShowsWhatWasLearnedBesideTheRulesOfTheTable) {
 TEST_F(JointLoopLearning, SaysWhereFrictionDiffersFromTheTable) {
   for (const auto& [scale, differs] : {std::pair{-0.5, true}, {-0.3, false}, {0.4, false}, {1.0, true}}) {
     JointBench bench({demo_joint()});
-    bench.joint(0).restore(learned_everywhere(scale), {});
+    bench.joint(0).joint().law.restore(learned_everywhere(scale), {});
     bench.bring_to_hold(0);
     EXPECT_EQ(bench.has_notice(0, Notice::kFrictionDiffers), differs) << scale;
   }
@@ -73,7 +73,7 @@ TEST_F(JointLoopLearning, IsForgottenByAResetWithoutATorqueStep) {
 }
 
 TEST_F(JointLoopLearning, IsNotResetWhileTheJointMovesButWhileItIsOff) {
-  bench_.joint(0).restore(learned_everywhere(0.25), {});
+  bench_.joint(0).joint().law.restore(learned_everywhere(0.25), {});
   EXPECT_EQ(bench_.order(0, OrderKind::kResetLearning), Reason::kAccepted);
   hold_with(0.25);
   ASSERT_EQ(bench_.move(0, 0.5), Reason::kAccepted);

@@ -90,7 +90,7 @@ TEST_F(JointLoopOrders, OfAStreamThatAFaultOrADisableEndedMoveNothingAfterAnEnab
     ASSERT_EQ(bench_.move(0, 0.5, 10.0), Reason::kAccepted);
     bench_.run(0.02);
     if (by_fault) {
-      bench_.joint(0).raise_fault(Fault::kEmergencyStop, bench_.time());
+      bench_.joint(0).joint().raise_fault(Fault::kEmergencyStop, bench_.time());
       bench_.run(1.0);
       ASSERT_EQ(bench_.order(0, OrderKind::kClearFault), Reason::kAccepted);
     } else {
@@ -127,7 +127,7 @@ TEST_F(JointLoopOrders, ThatWaitedWhileTheJointFaultedAreRefused) {
   Order order;
   order.kind = OrderKind::kClearFault;
   order.challenge_cycle = bench_.cycle();
-  bench_.joint(0).raise_fault(Fault::kGroup, bench_.time());
+  bench_.joint(0).joint().raise_fault(Fault::kGroup, bench_.time());
   const std::int64_t faulted_cycle = bench_.cycle();
   for (const std::int64_t challenge_cycle : {faulted_cycle - 1, faulted_cycle}) {
     order.challenge_cycle = challenge_cycle;

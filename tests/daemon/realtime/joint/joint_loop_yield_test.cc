@@ -103,7 +103,7 @@ TEST_F(YieldNotice, UntilAPathBegins) {
   KnotPath path;
   path.knots[path.count++] = {0.0, here_rad, 0.0};
   path.knots[path.count++] = {1.0, 0.1, 0.0};
-  const auto slot = bench_.joint(0).path_slots().hand_over({7, 1, path});
+  const auto slot = bench_.joint(0).joint().path_slots.hand_over({7, 1, path});
   ASSERT_EQ(bench_.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
             Reason::kAccepted);
   EXPECT_TRUE(told()) << "a part alone moves nothing";
@@ -130,7 +130,7 @@ TEST(YieldNoticeInHoming, StandsUntilTheJointIsHomed) {
 
 TEST_F(YieldNotice, UntilTheFaultThatCameOfItIsCleared) {
   run_into_the_wall();
-  bench_.joint(0).raise_fault(Fault::kOverload, bench_.time());
+  bench_.joint(0).joint().raise_fault(Fault::kOverload, bench_.time());
   bench_.run(0.5);
   ASSERT_EQ(bench_.mode(0), Mode::kFaulted);
   EXPECT_TRUE(told());

@@ -46,7 +46,7 @@ class PathCompanions : public ::testing::Test {
     path.knots[1] = {0.5 * kDuration_s, 0.5 * kFar_rad, kFastest_rad_s * 0.75};
     path.knots[2] = {kDuration_s, kFar_rad, 0.0};
     for (std::size_t i = 0; i < went_.size(); ++i) {
-      const auto slot = bench_.joint(i).path_slots().hand_over({7, 4, path});
+      const auto slot = bench_.joint(i).joint().path_slots.hand_over({7, 4, path});
       EXPECT_EQ(bench_.order(i, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
                 Reason::kAccepted);
     }

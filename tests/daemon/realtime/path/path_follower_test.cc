@@ -63,7 +63,7 @@ class PathFollowerTest : public ::testing::Test {
   }
   Reason load(std::size_t joint, const KnotPath& path, std::int32_t joint_count = kJoints,
               std::int64_t id = 7) {
-    const auto slot = bench_.joint(joint).path_slots().hand_over({id, joint_count, path});
+    const auto slot = bench_.joint(joint).joint().path_slots.hand_over({id, joint_count, path});
     EXPECT_TRUE(slot);
     return bench_.order(joint, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)});
   }

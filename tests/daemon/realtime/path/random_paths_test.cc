@@ -143,7 +143,8 @@ Ride ride(const std::vector<KnotPath>& parts, Kind kind, const std::vector<Bench
   const std::size_t count = parts.size();
   for (std::size_t i = 0; i < count; ++i) {
     bench.bring_to_hold(i, kind == Kind::kSpring ? flexible_table() : demo_table());
-    const auto slot = bench.joint(i).path_slots().hand_over({7, static_cast<std::int32_t>(count), parts[i]});
+    const auto slot =
+        bench.joint(i).joint().path_slots.hand_over({7, static_cast<std::int32_t>(count), parts[i]});
     EXPECT_EQ(bench.order(i, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
               Reason::kAccepted);
   }
