@@ -34,8 +34,7 @@ class Explanation {
     misfit_ = 1e300;
     for (const double lambda : sizes()) {
       const Predicted predicted = predict(lambda);
-      const double price = cause_.moves.empty() && !cause_.by_temperature ? 0.0 : kPriceOfExplaining;
-      if (const double misfit = price + misfit_with(features, predicted); misfit < misfit_) {
+      if (const double misfit = price() + misfit_with(features, predicted); misfit < misfit_) {
         misfit_ = misfit;
         predicted_ = predicted;
       }
@@ -63,6 +62,11 @@ class Explanation {
         sizes.push_back(cause_.least + (cause_.most - cause_.least) * i / kSteps);
     }
     return sizes;
+  }
+
+  /// Of a lambda that is free. One of a few gears that fits by chance is rarer.
+  double price() const {
+    return cause_.by_catalogue || (cause_.moves.empty() && !cause_.by_temperature) ? 0.0 : kPriceOfExplaining;
   }
 
   Predicted predict(double lambda) const {

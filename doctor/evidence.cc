@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "strainwave/vocabulary.h"
+
 namespace strainwave {
 
 void Evidence::take(const state_v1& state) {
@@ -43,6 +45,10 @@ std::int64_t Evidence::stride_periods() const {
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
+}
+
+bool Evidence::chattered() const {
+  return !samples.empty() && static_cast<Fault>(samples.back().fault) == Fault::kChatter;
 }
 
 double Evidence::mean_temperature_C() const {

@@ -58,6 +58,8 @@ struct Evidence {
   double torque_limit_Nm() const { return limits ? limits->torque_limit_Nm : 30.0; }
   /// 0: not known.
   double gear_ratio() const { return limits ? limits->gear_ratio : 0.0; }
+  /// Whether torque oscillated until fault 26 ended the motion.
+  bool chattered() const;
   /// Mean of the temperatures that the controller used; NaN: none.
   double mean_temperature_C() const;
   /// What the configured gain table says at this temperature. Nothing: no table, or no temperature.

@@ -213,13 +213,13 @@ void add_motion_features(const Evidence& evidence, Features& features) {
         kLeastMotionWindows));
     return;
   }
-  // What swings is no motion that shows them.
-  if (static_cast<Fault>(evidence.samples.back().fault) == Fault::kChatter) {
-    features.not_judged.emplace_back("inertia and friction: torque oscillated until the fault");
-  } else {
-    add_inertia(evidence, *fit, features);
-    add_friction(evidence, *fit, features);
-  }
+  // A swing is no sliding that shows friction. A rigid joint's shows its inertia; a flexible one's is of motor, link and spring at once.
+  const bool chattered = evidence.chattered();
+  if (chattered)
+    features.not_judged.emplace_back(fmt::format("{}friction: torque oscillated until the fault",
+                                                 evidence.told.link ? "inertia and " : ""));
+  if (!chattered || !evidence.told.link) add_inertia(evidence, *fit, features);
+  if (!chattered) add_friction(evidence, *fit, features);
   add_delay(evidence, *fit, features);
   add_stiffness(evidence, *fit, features);
   features[Feature::kLoad] = Observation{

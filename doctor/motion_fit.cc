@@ -18,6 +18,7 @@ constexpr double kSplitPrior = 1.0;     // of Jm and Jl over the configured, the
 constexpr double kScalePrior = 0.5;     // of ln(scale), standard deviation
 constexpr double kCoarse = 0.1, kFine = 0.02;
 constexpr int kPasses = 2;
+constexpr double kImpossible = 1e12;     // N2.m2, more than any motion leaves
 constexpr double kMostError_rad = 5e-4;  // of a gear, each part
 constexpr int kParameters = kMotionColumns;
 using Rows = MotionRows;
@@ -134,7 +135,11 @@ class Regression {
     for (std::size_t s = 0; s < scales_.size(); ++s) {
       const Normal inverse = inverse_normal(s);
       for (std::size_t d = 0; d < torques_.size(); ++d) {
-        squares_[s][d] = solve(s, d, inverse).squares + prior_squares(scales_[s]);
+        const Solved solved = solve(s, d, inverse);
+        squares_[s][d] = solved.squares + prior_squares(scales_[s]);
+        // Half a turn of a swing later, torque that oscillates fits a negative inertia.
+        if (evidence_.chattered() && solved.parameters[kMotor] + solved.parameters[kLink] <= 0.0)
+          squares_[s][d] = kImpossible;
         if (squares_[s][d] >= squares_[best_scale_][best_delay_]) continue;
         best_scale_ = s;
         best_delay_ = d;

@@ -128,6 +128,19 @@ TEST(MotionFit, FindsTheSpringUnderALoadAndAnUnevenGear) {
   }
 }
 
+// Twice the ratio makes the feedback four times as stiff. By half a turn of its oscillation and the other sign, the motion of 2006 is
+// explained a little better.
+TEST(Doctor, NamesTheRatioOfARigidJointThatOscillatesForIt) {
+  for (const int i : {302, 326, 2006}) {
+    double seconds = 0.0;
+    const Evidence evidence = examine(random_patient("gear ratio", i), 1, seconds);
+    ASSERT_TRUE(evidence.chattered()) << i;
+    const Diagnosis diagnosis = diagnose(evidence);
+    ASSERT_FALSE(diagnosis.findings.empty()) << i;
+    EXPECT_EQ(diagnosis.findings.front().cause, "gear ratio") << i;
+  }
+}
+
 TEST(TestMotion, StaysWithinLimitsAndReachAndComesBack) {
   limits_v1 limits{};
   limits.position_min_rad = -0.2;
