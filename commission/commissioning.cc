@@ -163,8 +163,8 @@ std::string Commissioning::finish() {
     for (int later = static_cast<int>(step_) + 1; later < static_cast<int>(Step::kEnd); ++later)
       if (!done(name_of(static_cast<Step>(later))))
         record_.steps.push_back({name_of(static_cast<Step>(later)), StepOutcome::kSkipped,
-                                 "not run, since " + name_of(step_) + " failed", 0.0});
-  return name_of(step_) + (good ? ": " + text : ": failed: " + record_.problem);
+                                 "not run, since " + name_of(step_) + " ended early", 0.0});
+  return name_of(step_) + (good ? ": " + text : ": ended early: " + record_.problem);
 }
 
 std::string Commissioning::evaluate() {

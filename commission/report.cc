@@ -64,7 +64,7 @@ const char* text_of(StepOutcome outcome) {
     case StepOutcome::kDone:
       return "done";
     case StepOutcome::kFailed:
-      return "failed";
+      return "ended early";
     case StepOutcome::kSkipped:
       return "skipped";
   }

@@ -251,6 +251,8 @@ TEST(Commissioning, BrakesAndDisablesWhenItIsAbortedAndGoesOnFromThere) {
   bench.run(first, "motion", 4000);
   EXPECT_EQ(first.record().problem, "a key was pressed");
   EXPECT_EQ(step_of(first.record(), "motion").outcome, StepOutcome::kFailed);
+  EXPECT_NE(bench.lines().find("motion: ended early: a key was pressed"), std::string::npos) << bench.lines();
+  EXPECT_EQ(bench.lines().find("failed"), std::string::npos) << "it was interrupted";
   EXPECT_EQ(step_of(first.record(), "friction").outcome, StepOutcome::kDone);
   EXPECT_FALSE(bench.enabled());
   EXPECT_LT(std::abs(bench.present_speed_rad_s()), 0.05);
