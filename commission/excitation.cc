@@ -31,7 +31,7 @@ constexpr double kMostInertia = 12.0;
 constexpr std::size_t kMean = 32;
 constexpr std::size_t kQuickMean = 8;
 // Root mean square of the acceleration by which the first shaken stroke shakes, of a joint of the told inertia.
-constexpr double kFirstShake_rad_s2 = 1.0;
+constexpr double kFirstShake_rad_s2 = 4.0;
 // Three standard deviations of the speed's swing take this share of what is between the stroke's speed and sticking.
 constexpr double kSwingShare = 0.8;
 constexpr double kBraked_rad_s = 0.01;

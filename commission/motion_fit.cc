@@ -18,14 +18,14 @@ constexpr std::size_t kLongWindow = 400;
 constexpr std::size_t kShortWindow = 60;
 constexpr std::size_t kLeastWindow = 120;
 constexpr int kShortIterations = 12;
-constexpr int kLongIterations = 25;
+constexpr int kLongIterations = 60;
 constexpr std::size_t kSearchWindows = 24;
 // Long stretches leave about what short ones leave, and a wrong resonance, out of phase, many times that.
 constexpr double kExplained = 3.0;
 constexpr std::size_t kTries = 3;
-// By this, errors that all strokes have in common make intervals longer than the spread of the strokes says: commission_study, which
-// finds nine of ten without it.
-constexpr double kCommonErrors = 1.3;
+// By this, errors that all strokes have in common make intervals longer than the spread of the strokes says: commission_study 40 161,
+// which finds eight of ten links within their intervals at 1.3, and nine of ten so.
+constexpr double kCommonErrors = 1.8;
 // Half an interval, of the number: what is found less exactly is not found. Inertias and spring are meant to 5 %, the resonance to 2 %;
 // damping has a third in a table (docs/commissioning.md).
 constexpr double kKnownShare = 0.05;

@@ -30,12 +30,14 @@ std::array<double, SineSum::kSines> SineSum::frequencies_Hz() {
 double SineSum::step() {
   static const std::array<double, kSines> frequencies = frequencies_Hz();
   const double t = period_s_ * static_cast<double>(periods_++);
-  double sum = 0.0;
+  double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < kSines; ++i) {
     const auto n = static_cast<double>(i);
-    sum += std::sin(kTurn_rad * frequencies[i] * t - std::numbers::pi * n * (n + 1.0) / kSines);
+    sum += std::sqrt(frequencies[i]) *
+           std::sin(kTurn_rad * frequencies[i] * t - std::numbers::pi * n * (n + 1.0) / kSines);
+    squares += 0.5 * frequencies[i];
   }
-  return std::sqrt(2.0 / kSines) * sum;
+  return sum / std::sqrt(squares);
 }
 
 void SineSum::respond(double torque_Nm, double speed_rad_s) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sum of sines, periodic, and the inertia that the response to its lowest one shows. Not real-time.
 //
-//   s(t) = sqrt(2 / n) sum over i of sin(2 pi f_i t + phi_i),   root mean square 1
+//   s(t) = c sum over i of sqrt(f_i) sin(2 pi f_i t + phi_i),   c: root mean square 1
 //
+// A torque moves a mass by 1 / f: equal ones would spend the speed that may swing on the lowest, and show nothing of a light link.
 // The frequencies are multiples of 1.5 Hz, in equal ratios as near as these come, from well below to beyond the resonance of any gear of
 // the catalogue with up to three times its inertia. Phases after Schroeder (IEEE Trans. Inf. Theory 16, 1970) keep the peak low.
 #pragma once
