@@ -14,7 +14,7 @@ namespace strainwave::testing {
 namespace {
 
 TEST(Excitation, StaysInsideItsLimitsAndComesBack) {
-  for (const std::uint64_t seed : {2U, 4U, 6U, 190U}) {
+  for (const std::uint64_t seed : {2U, 4U, 79U, 190U}) {
     const RandomJoint joint = random_joint(seed);
     const CommissionedJoint run = excite(joint);
     EXPECT_EQ(run.problem, "") << seed;
