@@ -196,8 +196,8 @@ std::string third_pdo(const std::string& eds) {
 
 TEST_F(DataSheets, HomingByTheEncodersIndexNeedsAllOfTheTouchProbe) {
   const std::string by_index =
-      replaced(replaced(example("epos4.toml"), "to = \"limit\"", "to = \"index\""),
-               "negative_limit = true", "index = \"encoder\"\nnegative_limit = true");
+      replaced(replaced(example("epos4.toml"), "to = \"limit\"", "to = \"index\""), "negative_limit = true",
+               "index = \"encoder\"\nnegative_limit = true");
   const std::string epos4 = read_text_file(sheet("epos4.eds"));
   const auto check_with = [&](const std::string& objects) {
     std::ofstream(folder_ / "drive.eds") << epos4 << third_pdo(epos4) << objects;
