@@ -9,6 +9,8 @@ namespace {
 
 /// Of the joint's speed limit, where the configuration does not say: 60 urad of a joint of 6 rad/s in a period of 1 ms.
 constexpr double kSpeedShare = 0.01;
+/// Against a mechanical stop: the law pushes harder while the joint is seen to stand.
+constexpr double kStopSpeedShare = 0.005;
 
 HomingTarget target_of(TomlSection& section, bool negative, const HomingInputs& available) {
   const std::string to = section.choice_or("to", "none", {"none", "home", "limit", "index", "stop"});
@@ -65,7 +67,8 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
                             limits.position_max_rad + limits.position_margin_rad};
   homing.home_position_rad =
       section.number_or("position_rad", std::clamp(0.0, within_limits.min, within_limits.max), within_limits);
-  homing.speed_rad_s = section.number_or("speed_rad_s", kSpeedShare * speed_rad_s, {1e-6, speed_rad_s});
+  const double share = homing.target == HomingTarget::kStop ? kStopSpeedShare : kSpeedShare;
+  homing.speed_rad_s = section.number_or("speed_rad_s", share * speed_rad_s, {1e-6, speed_rad_s});
   homing.travel_rad =
       section.number_or("travel_rad", 1.1 * (within_limits.max - within_limits.min), {1e-6, 1e4});
   // To one end of the travel, to the other, and back.

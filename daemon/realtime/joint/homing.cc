@@ -71,13 +71,15 @@ Homing::Order Homing::step(const Observation& observation) noexcept {
   if (phase_ == Phase::kToIndex)
     return inputs.index_count == index_count_ ? Order{} : found(inputs.index_position_rad);
   if (at_switch(inputs)) {
-    if (phase_ == Phase::kLeaving) return {};
+    confirmed_ = phase_ == Phase::kLeaving;
+    if (confirmed_) return {};
     marked_rad_ = observation.joint_position_rad;
     return go(Phase::kLeaving, -config_.direction);
   }
-  // A joint that overshot a narrow switch comes back through it.
+  // A joint that overshot a narrow switch comes back through it. A switch that is not seen again was a disturbance.
   const bool returned = (observation.joint_position_rad - marked_rad_) * config_.direction < 0.0;
   if (phase_ != Phase::kLeaving || !returned) return {};
+  if (!confirmed_) return go(Phase::kSearching, config_.direction);
   if (!config_.then_index) return found(observation.joint_position_rad);
   index_count_ = inputs.index_count;
   return go(Phase::kToIndex, heading_);

@@ -91,6 +91,7 @@ class Homing {
   double marked_rad_ =
       0.0;  ///< leaving: where the switch closed; pushing: since marked_ns_ the joint stands here
   std::int64_t marked_ns_ = 0;
+  bool confirmed_ = false;        ///< leaving: the switch was seen again
   std::int64_t index_count_ = 0;  ///< when the motion towards the index began
 };
 

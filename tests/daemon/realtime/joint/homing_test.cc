@@ -216,6 +216,20 @@ TEST(Homing, RefusesBothLimitsAtOnceWhichIsABrokenWire) {
   EXPECT_EQ(joint.position_rad_, begin_rad) << "before anything moves";
 }
 
+TEST(Homing, TakesNoDisturbanceOfOnePeriodForItsSwitch) {
+  Homing homing(config_to(HomingTarget::kHomeSwitch));
+  Walker joint(0.9, inputs());
+  bool disturbed = false;
+  joint.falsify = [&](JointInputs input) {
+    if (joint.position_rad_ < 0.7 && !disturbed) input.home = disturbed = true;
+    return input;
+  };
+  joint.run(homing);
+  ASSERT_EQ(homing.phase(), Homing::Phase::kFound);
+  EXPECT_TRUE(disturbed);
+  EXPECT_NEAR(homing.found_rad(), 0.35, 2.0 * kPerPeriod_rad);
+}
+
 TEST(Homing, EndsAtTheTravelWhenASwitchNeverOpensOrNeverCloses) {
   for (const bool stuck : {true, false}) {
     HomingConfig config = config_to(HomingTarget::kHomeSwitch);
