@@ -30,6 +30,7 @@ JointDrive::JointDrive(const JointLoopConfig& config, std::unique_ptr<Actuator> 
       position_check_(config),
       temperature_(config.temperature),
       period_s_(config.controller.period_s),
+      slowest_rad_s_(config.controller.encoder_resolution_rad / kMean_s),
       missed_limit_(config.missed_readings_limit),
       missed_(missed_limit_ + 1) {}
 

@@ -4,6 +4,7 @@
 // must be by now.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "daemon/realtime/joint/joint_loop_config.h"
@@ -38,9 +39,11 @@ class JointDrive {
 
   const ActuatorReading& reading() const noexcept { return reading_; }
   double position_rad() const noexcept { return reading_.joint_position_rad; }
-  /// By the drive, or else by positions in the mean of some 20 ms, as long as the control law does not run.
+  /// By the drive, or else by positions in the mean of some 20 ms, as long as the control law does not run; 0 where a
+  /// count that flickers shows as much.
   double velocity_rad_s() const noexcept {
-    return reading_.has_velocity ? reading_.joint_velocity_rad_s : velocity_rad_s_;
+    if (reading_.has_velocity) return reading_.joint_velocity_rad_s;
+    return std::abs(velocity_rad_s_) > slowest_rad_s_ ? velocity_rad_s_ : 0.0;
   }
   /// There is a position of this period.
   bool fresh() const noexcept { return fresh_; }
@@ -61,6 +64,7 @@ class JointDrive {
   TemperatureCheck temperature_;
   ActuatorReading reading_;
   double period_s_;
+  double slowest_rad_s_;
   double velocity_rad_s_ = 0.0;  ///< of a joint that is not under control, by positions
   bool fresh_ = false;
   int missed_limit_;
