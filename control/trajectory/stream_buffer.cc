@@ -19,7 +19,9 @@ constexpr double kLongest_s = 0.2;
 constexpr double kApart_s = 0.01;
 constexpr int kBefore = 8;  ///< neighbours, and ...
 constexpr int kAfter = 2;   ///< ... after the sample
-// So long a motion is carried on with its jerk: intervals, and at least a time.
+// A jerk that changes the acceleration by less than this share of the limit in an interval is the motion's own, and not the positions' noise.
+constexpr double kSmooth = 0.1;
+// So long a smooth motion is carried on with its jerk: intervals, and at least a time.
 constexpr double kCarriedIntervals = 2.5;
 constexpr double kCarried_s = 0.06;
 // Beyond this multiple of the joint's limits a sample is no part of a motion.
@@ -203,9 +205,12 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
 // The motion of the anchor: with its acceleration for some time, then with the velocity of that.
 MotionPoint StreamBuffer::carried(double at) const noexcept {
   const MotionPoint& s = anchor_.state;
-  const double jerk = s.jerk_rad_s3;
+  const double interval_s = seconds(interval_);
+  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * reach_.acceleration_rad_s2;
+  const double jerk = smooth ? s.jerk_rad_s3 : 0.0;
   const double since_s = seconds(at - anchor_.at);
-  const double t = std::min(since_s, std::max(kCarriedIntervals * seconds(interval_), kCarried_s));
+  const double t =
+      std::min(since_s, smooth ? std::max(kCarriedIntervals * interval_s, kCarried_s) : interval_s);
   const double acceleration = s.acceleration_rad_s2 + t * jerk;
   const double velocity = s.velocity_rad_s + t * (s.acceleration_rad_s2 + 0.5 * t * jerk);
   const double position =

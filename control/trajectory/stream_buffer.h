@@ -46,6 +46,10 @@ class StreamBuffer {
   /// The stream that has ended goes on with the next sample, from here.
   void resume(double position_rad, double velocity_rad_s, const StreamLoad& load) noexcept;
   double lead_periods() const noexcept { return lead_; }
+  /// The target is where the samples are now: after a wait through which the joint was not led.
+  void catch_up() noexcept {
+    if (count_ > 0) move_to(play());
+  }
   /// Periods go by in which no step() is taken.
   void wait(std::int64_t periods) noexcept {
     now_ += static_cast<double>(periods);

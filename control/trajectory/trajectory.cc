@@ -61,6 +61,7 @@ void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
     stream_.leave_out(elapsed_periods - 1);
   else
     stream_.wait(elapsed_periods - 1);
+  if (elapsed_periods > kMaxElapsedPeriods && source_ == Source::kStream) stream_.catch_up();
 }
 
 bool Trajectory::off_stream() const noexcept {
