@@ -102,7 +102,9 @@ void JointPlan::follow_path(double position_rad, double velocity_rad_s, std::int
 void JointPlan::go_on_from(double reading_rad, double velocity_rad_s) noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
+  const double torque_Nm = plan_.torque_Nm;
   trajectory_.go_on_from(begin_plan(reading_rad, begin_rad_s), begin_rad_s);
+  plan_.torque_Nm = torque_Nm;
 }
 
 // What the joint can do at the speed that the reference has reached.
