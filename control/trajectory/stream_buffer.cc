@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "control/trajectory/local_polynomial.h"
 
@@ -63,9 +62,16 @@ void StreamBuffer::resume(double position_rad, double velocity_rad_s, const Stre
 }
 
 std::size_t StreamBuffer::first_from(double at) const noexcept {
-  const auto all = std::views::iota(std::size_t{0}, count_);
-  const auto found = std::ranges::partition_point(all, [&](std::size_t i) { return knot(i).at < at; });
-  return static_cast<std::size_t>(found - all.begin());
+  std::size_t low = 0;
+  std::size_t high = count_;
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (knot(middle).at < at)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
 }
 
 // The newest order counts: it takes the place of all that are for later.
