@@ -14,6 +14,18 @@ constexpr double kBase_Hz = 1.5;
 constexpr double kLowest_Hz = 3.0;
 constexpr double kHighest_Hz = 180.0;
 
+/// sqrt(f_i), and their root mean square together.
+struct Amplitudes {
+  std::array<double, SineSum::kSines> of = SineSum::frequencies_Hz();
+  double root_mean_square = 0.0;
+  Amplitudes() {
+    double squares = 0.0;
+    for (const double frequency_Hz : of) squares += 0.5 * frequency_Hz;
+    for (double& one : of) one = std::sqrt(one);
+    root_mean_square = std::sqrt(squares);
+  }
+};
+
 }  // namespace
 
 std::array<double, SineSum::kSines> SineSum::frequencies_Hz() {
@@ -29,15 +41,15 @@ std::array<double, SineSum::kSines> SineSum::frequencies_Hz() {
 
 double SineSum::step() {
   static const std::array<double, kSines> frequencies = frequencies_Hz();
+  static const Amplitudes amplitudes;
   const double t = period_s_ * static_cast<double>(periods_++);
-  double sum = 0.0, squares = 0.0;
+  double sum = 0.0;
   for (std::size_t i = 0; i < kSines; ++i) {
     const auto n = static_cast<double>(i);
-    sum += std::sqrt(frequencies[i]) *
+    sum += amplitudes.of[i] *
            std::sin(kTurn_rad * frequencies[i] * t - std::numbers::pi * n * (n + 1.0) / kSines);
-    squares += 0.5 * frequencies[i];
   }
-  return sum / std::sqrt(squares);
+  return sum / amplitudes.root_mean_square;
 }
 
 void SineSum::respond(double torque_Nm, double speed_rad_s) {

@@ -41,10 +41,10 @@ std::optional<double> goal(const std::string& quantity) {
   return std::nullopt;
 }
 
-// 194 has a link of a tenth of the motor's inertia, which only the sines near the resonance show.
+// 160 gives its resonance and its link only where the sines rise towards the resonance.
 TEST(IdentificationStudy, FindsTheNumbersOfFourJointsWithinGoalsAndIntervals) {
   int all = 0, held = 0;
-  for (const std::uint64_t seed : {1U, 2U, 3U, 194U}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 160U}) {
     const Found one = find(seed);
     EXPECT_EQ(one.run.problem, "") << seed;
     EXPECT_GE(one.estimates.friction.size(), 2U) << seed;
