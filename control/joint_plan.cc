@@ -57,17 +57,17 @@ void JointPlan::start(double reading_rad, double velocity_rad_s) noexcept {
   begin_order(0.0);
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
-  trajectory_.start(begin_plan(reading_rad, begin_rad_s), begin_rad_s);
+  trajectory_.start(begin_plan(reading_rad, begin_rad_s, config_.gravity.at(reading_rad)), begin_rad_s);
 }
 
-// A motion at constant velocity from where the encoder reads `reading_rad`. Where the trajectory, which is ahead, must go on from.
-double JointPlan::begin_plan(double reading_rad, double velocity_rad_s) noexcept {
+// A motion at constant velocity from where the encoder reads `reading_rad`; `torque_Nm` is what the first change of torque is counted from. Where the trajectory, which is ahead, must go on from.
+double JointPlan::begin_plan(double reading_rad, double velocity_rad_s, double torque_Nm) noexcept {
   const double motor_rad = by_encoder(config_, planner_.motor_rest_rad(reading_rad), reading_rad);
   plan_ = {};
   plan_.position_rad = plan_.acting_end_position_rad = motor_rad;
   plan_.link_position_rad = reading_rad;
   plan_.velocity_rad_s = velocity_rad_s;
-  plan_.torque_Nm = config_.gravity.at(reading_rad);
+  plan_.torque_Nm = torque_Nm;
   return planner_.reset(motor_rad, velocity_rad_s);
 }
 
@@ -102,9 +102,7 @@ void JointPlan::follow_path(double position_rad, double velocity_rad_s, std::int
 void JointPlan::go_on_from(double reading_rad, double velocity_rad_s) noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
-  const double torque_Nm = plan_.torque_Nm;
-  trajectory_.go_on_from(begin_plan(reading_rad, begin_rad_s), begin_rad_s);
-  plan_.torque_Nm = torque_Nm;
+  trajectory_.go_on_from(begin_plan(reading_rad, begin_rad_s, plan_.torque_Nm), begin_rad_s);
 }
 
 // What the joint can do at the speed that the reference has reached.

@@ -78,7 +78,7 @@ class JointPlan {
 
  private:
   void begin_order(double speed_limit_rad_s) noexcept;
-  double begin_plan(double reading_rad, double velocity_rad_s) noexcept;
+  double begin_plan(double reading_rad, double velocity_rad_s, double torque_Nm) noexcept;
   MotionLimits present_limits(const PlannedJoint& joint) const noexcept;
 
   JointControllerConfig config_;

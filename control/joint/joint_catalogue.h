@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint whose friction the catalogue knows. The catalogue's files are compiled in, so that the daemon needs none. Not real-time. Source: data/friction_parameters.csv, Zhao (2006), Table 2; data/rhs17_datasheet.csv, his
-// Appendix A.
+// The joint whose friction the catalogue knows. The catalogue's files are compiled in, so that the daemon needs none. Not real-time.
+// Source: data/friction_parameters.csv, Zhao (2006), Table 2; data/rhs17_datasheet.csv, his Appendix A.
 #pragma once
 
 #include <string>

@@ -46,7 +46,7 @@ class StreamBuffer {
   /// The stream that has ended goes on with the next sample, from here.
   void resume(double position_rad, double velocity_rad_s, const StreamLoad& load) noexcept;
   double lead_periods() const noexcept { return lead_; }
-  /// The target is where the samples are now: after a wait through which the joint was not led.
+  /// After a wait through which the joint was not led: the target is where the motion that it was led on is now.
   void catch_up() noexcept {
     if (count_ > 0) move_to(play());
   }

@@ -57,11 +57,9 @@ void Trajectory::stop() noexcept {
 
 // Through periods that were left out step() goes as if it had been called; not where the joint's motion is unknown.
 void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
-  if (elapsed_periods <= kMaxElapsedPeriods)
-    stream_.leave_out(elapsed_periods - 1);
-  else
-    stream_.wait(elapsed_periods - 1);
-  if (elapsed_periods > kMaxElapsedPeriods && source_ == Source::kStream) stream_.catch_up();
+  if (elapsed_periods <= kMaxElapsedPeriods) return stream_.leave_out(elapsed_periods - 1);
+  stream_.wait(elapsed_periods - 1);
+  if (source_ == Source::kStream) stream_.catch_up();
 }
 
 bool Trajectory::off_stream() const noexcept {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBusPeriod_s = 1e-3;
 constexpr std::array<const char*, 4> kNames = {"alone", "plan", "wind-up", "all offsets"};
-/// Of delay, for which a drive is tuned that has a margin.
+/// For which a drive is tuned that has a margin.
 constexpr double kMargin_periods = 1.0;
 
 JointPlantConfig plant_at(double rate_Hz) {
@@ -35,9 +35,9 @@ JointControllerConfig controller_config(JointPlantConfig plant, const GainTable&
   return config;
 }
 
-ServoJoint tuned_joint(const JointPlantConfig& plant, DriveTuning tuning) {
+ServoJoint tuned_joint(const JointPlantConfig& plant, double margin_periods) {
   ServoJoint joint = servo_joint(plant);
-  if (tuning == DriveTuning::kMargin) joint.delay_periods += kMargin_periods;
+  joint.delay_periods += margin_periods;
   return joint;
 }
 
@@ -46,12 +46,12 @@ ServoJoint tuned_joint(const JointPlantConfig& plant, DriveTuning tuning) {
 class OwnLoop final : public LoopController {
  public:
   OwnLoop(const JointPlantConfig& plant, const GainTable& table, const SmoothPath& path, Told told,
-          DriveTuning tuning)
+          double margin_periods)
       : told_(told),
         path_(path),
         steps_(static_cast<int>(std::lround(kBusPeriod_s / plant.period_s))),
         daemon_(controller_config(plant, table, told), table, path, {}),
-        cascade_(tuned_joint(plant, tuning), true) {}
+        cascade_(tuned_joint(plant, margin_periods), true) {}
 
   double torque_Nm(const LoopSample& sample) noexcept override {
     if (tick_ == 0) {
@@ -116,11 +116,11 @@ double mean_rms_rad(const JointPlantConfig& plant, const FrictionWay& way, doubl
 
 }  // namespace
 
-FrictionWay own_loop_way(const GainTable& table, Told told, DriveTuning tuning) {
+FrictionWay own_loop_way(const GainTable& table, Told told, double margin_periods) {
   std::string name = kNames[static_cast<std::size_t>(told)];
-  if (tuning == DriveTuning::kMargin) name += ", margin";
-  return {name, [table, told, tuning](const JointPlantConfig& plant, const SmoothPath& path, double) {
-            return std::make_unique<OwnLoop>(plant, table, path, told, tuning);
+  if (margin_periods > 0.0) name += ", margin";
+  return {name, [table, told, margin_periods](const JointPlantConfig& plant, const SmoothPath& path, double) {
+            return std::make_unique<OwnLoop>(plant, table, path, told, margin_periods);
           }};
 }
 
@@ -129,8 +129,8 @@ std::vector<OwnLoopRow> run_own_loops(const FlexibleTables& tables) {
   std::vector<FrictionWay> ways{friction_ways(tables).back()};
   ways.front().name = "torque mode";
   for (const Told told : {Told::kNothing, Told::kPlan, Told::kWindUp, Told::kAllOffsets})
-    ways.push_back(own_loop_way(table, told, DriveTuning::kFast));
-  ways.push_back(own_loop_way(table, Told::kAllOffsets, DriveTuning::kMargin));
+    ways.push_back(own_loop_way(table, told));
+  ways.push_back(own_loop_way(table, Told::kAllOffsets, kMargin_periods));
   struct Job {
     const FrictionWay* way;
     OwnLoopRow row;

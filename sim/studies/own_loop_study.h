@@ -22,16 +22,11 @@ namespace strainwave {
 /// What the drive is given.
 enum class Told { kNothing, kPlan, kWindUp, kAllOffsets };
 
-enum class DriveTuning {
-  kFast,   ///< for the delay that there is
-  kMargin  ///< for a period more
-};
-
 inline constexpr std::array<double, 3> kDriveRates_Hz = {1000.0, 4000.0, 8000.0};
 inline constexpr std::array<double, 2> kOwnLoopTemperatures_C = {-10.0, 30.0};
 
-/// The cascade behind a bus of 1 kHz. The plant's period is the drive's.
-FrictionWay own_loop_way(const GainTable& table, Told told, DriveTuning tuning);
+/// The cascade behind a bus of 1 kHz, tuned for its delay and so many periods more. The plant's period is the drive's.
+FrictionWay own_loop_way(const GainTable& table, Told told, double margin_periods = 0.0);
 
 struct OwnLoopRow {
   std::string way;
