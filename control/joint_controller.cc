@@ -117,9 +117,8 @@ PlannedJoint JointController::joint() const noexcept {
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!law_.loaded()) return {};
   const int elapsed_periods = led_periods(config_, measurement);
-  std::optional<double> temperature_C;
-  if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
-  if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
+  if (measurement.temperature_valid && law_.set_temperature(measurement.temperature_C))
+    friction_.weigh(law_.temperature_weights());
   if (yields()) {
     reading_.step(measurement, plan_.now().position_rad, plan_.now().position_rad);
     yielding_.see(reading_.position_rad(), count_of(config_), elapsed_periods);
@@ -271,7 +270,6 @@ JointStep JointController::result(const ControllerOutput& output, bool learns) c
   if (plan_.corrections().begun() && !yields())
     step.ordered_reference = {plan_.rest_position_rad(), 0.0, 0.0};
   step.joint_velocity_rad_s = reading_.velocity_rad_s();
-  step.gains_in_use = law_.gains_in_use();
   step.at_target = !plan_.moves();
   step.off_stream = plan_.trajectory().off_stream() && !plan_.corrections().begun();
   step.phase = phase_;

@@ -30,7 +30,6 @@
 #include "control/law_in_use.h"
 #include "control/oscillation_detector.h"
 #include "control/table/gain_table.h"
-#include "strainwave/gains_in_use.h"
 
 namespace strainwave {
 
@@ -49,8 +48,7 @@ struct JointStep {
   /// The same by the orders alone: while a joint corrects its place at rest, that place. What the joint is supervised against.
   Reference ordered_reference;
   double joint_velocity_rad_s = 0.0;  ///< measured, as the feedback used it
-  GainsInUse gains_in_use = GainsInUse::kNone;
-  bool at_target = false;   ///< the motion has ended on the target
+  bool at_target = false;             ///< the motion has ended on the target
   bool off_stream = false;  ///< the limits do not let the reference be where the stream is, or not yet
   MotionPhase phase = MotionPhase::kTracking;
   /// Besides gravity and the stream's load: the learned load and the feedback, the mean over 10 ms.

@@ -21,11 +21,10 @@ double largest_gain_Nm_rad(const GainTable& table, double velocity_by_rad) noexc
 }  // namespace
 
 void LawInUse::load(const GainTable& table) noexcept {
-  keep_outgoing();
+  if (loaded_ && !outgoing_) outgoing_ = law_;
   const double lead_periods = table.box.lead_periods;
-  primary_ = ScheduledController(table.primary, table.friction, table.plant, lead_periods);
-  fallback_ = ScheduledController(table.fallback, table.friction, table.plant, lead_periods);
-  if (temperature_C_) primary_.set_temperature(*temperature_C_);
+  law_ = ScheduledController(table.primary, table.friction, table.plant, lead_periods);
+  if (temperature_C_) law_.set_temperature(*temperature_C_);
   count_torque_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, velocity_share_ / period_s_) *
                      (1.0 + lead_periods);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
@@ -33,20 +32,13 @@ void LawInUse::load(const GainTable& table) noexcept {
 }
 
 void LawInUse::begin_anew() noexcept {
-  primary_.reset();
-  fallback_.reset();
+  law_.reset();
   outgoing_.reset();
-  gains_in_use_ = GainsInUse::kNone;
 }
 
-bool LawInUse::choose_gains(const std::optional<double>& temperature_C) noexcept {
-  const GainsInUse wanted = temperature_C ? GainsInUse::kPrimary : GainsInUse::kFallback;
-  if (wanted != gains_in_use_) {
-    keep_outgoing();
-    gains_in_use_ = wanted;
-  }
-  if (!temperature_C || temperature_C_ == temperature_C) return false;
-  primary_.set_temperature(*temperature_C);
+bool LawInUse::set_temperature(double temperature_C) noexcept {
+  if (temperature_C_ == temperature_C) return false;
+  law_.set_temperature(temperature_C);
   temperature_C_ = temperature_C;
   return true;
 }
@@ -54,14 +46,10 @@ bool LawInUse::choose_gains(const std::optional<double>& temperature_C) noexcept
 ControllerOutput LawInUse::step(const ControllerInput& input) noexcept {
   if (outgoing_) {
     const std::optional<double> last_law_Nm = outgoing_->last_law_Nm();
-    active().carry_over(input, outgoing_->step(input).torque_Nm, last_law_Nm);
+    law_.carry_over(input, outgoing_->step(input).torque_Nm, last_law_Nm);
   }
   outgoing_.reset();
-  return active().step(input);
-}
-
-void LawInUse::keep_outgoing() noexcept {
-  if (gains_in_use_ != GainsInUse::kNone && !outgoing_) outgoing_ = active();
+  return law_.step(input);
 }
 
 }  // namespace strainwave

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table's law as it is in use: scheduled gains while the temperature is known, temperature-free ones otherwise. Real-time safe. Joint side, SI.
+// A table's law as it is in use. Real-time safe. Joint side, SI.
 //
-//   change of gains   bumpless transfer: the integral is chosen so that the next torque is what the gains before it would have given
+//   temperature       the last that was known; before the first, the middle of the table's range
+//   change of table   bumpless transfer: the integral is chosen so that the next torque is what the gains before it would have given
 //                       u'(x, integral') = u(x, integral)
 //   a count makes     resolution max_i (|F_i1| + |F_i2| share / T) (1 + n)
 //   a lead n          the table's, 0 on a rigid joint; it begins anew after interrupt()
@@ -10,7 +11,6 @@
 #include <optional>
 
 #include "control/scheduled_controller.h"
-#include "strainwave/gains_in_use.h"
 
 namespace strainwave {
 
@@ -25,52 +25,39 @@ class LawInUse {
   /// Takes a table that has passed find_defect().
   void load(const GainTable& table) noexcept;
   bool loaded() const noexcept { return loaded_; }
-  /// Nothing is remembered but table and temperature, and the gains are the table's.
+  /// Nothing is remembered but table and temperature.
   void begin_anew() noexcept;
-  /// By the temperature of this period; friction stays that of the last that was known.
   /// True: the weights of the temperature rules have changed.
-  bool choose_gains(const std::optional<double>& temperature_C) noexcept;
+  bool set_temperature(double temperature_C) noexcept;
 
-  /// One period. The first after a change of gains goes on from the torque of those before it.
+  /// One period. The first after a change of table goes on from the torque of the one before it.
   ControllerOutput step(const ControllerInput& input) noexcept;
   /// Another torque than the law's is applied: the next of the law's continues none.
   void interrupt() noexcept {
     outgoing_.reset();
-    active().interrupt();
+    law_.interrupt();
   }
   /// The reference begins anew from where the joint is.
   void reference_jumps() noexcept {
-    active().interrupt();
+    law_.interrupt();
     if (outgoing_) outgoing_->interrupt();
   }
   /// What the integral holds of a joint at rest.
-  double integral_torque_Nm() const noexcept { return active().integral_torque_Nm(); }
+  double integral_torque_Nm() const noexcept { return law_.integral_torque_Nm(); }
 
-  GainsInUse gains_in_use() const noexcept { return gains_in_use_; }
-  const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
+  const TemperatureWeights& temperature_weights() const noexcept { return law_.temperature_weights(); }
   /// alpha_0 at rest.
   double zero_velocity_weight() const noexcept { return zero_velocity_weight_; }
   /// What a count makes, >= 0.
   double count_torque_Nm() const noexcept { return count_torque_Nm_; }
 
  private:
-  const ScheduledController& active() const noexcept {
-    return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
-  }
-  ScheduledController& active() noexcept {
-    return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
-  }
-  void keep_outgoing() noexcept;
-
   double period_s_;
   double encoder_resolution_rad_;
   double velocity_share_;
-  ScheduledController primary_;
-  ScheduledController fallback_;
-  std::optional<ScheduledController>
-      outgoing_;                         ///< what was active before the gains changed, until the next torque
-  std::optional<double> temperature_C_;  ///< the last that was known
-  GainsInUse gains_in_use_ = GainsInUse::kNone;
+  ScheduledController law_;
+  std::optional<ScheduledController> outgoing_;  ///< of the table before, until the next torque
+  std::optional<double> temperature_C_;          ///< the last that was known
   double count_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;
   bool loaded_ = false;

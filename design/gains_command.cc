@@ -189,9 +189,8 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
   }
   for (const auto& [path, table] : tables) {
     write_gain_table(table, path);
-    std::printf("%s: %s with fallback %s, %s; cost bound %.6g\n", path.c_str(),
+    std::printf("%s: %s, %s; cost bound %.6g\n", path.c_str(),
                 std::string(table.primary.controller.view()).c_str(),
-                std::string(table.fallback.controller.view()).c_str(),
                 request.design.sampling == Sampling::kZeroOrderHold
                     ? "certified"
                     : "designed by forward Euler, for reproducing Zhao (2006) only",

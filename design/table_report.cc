@@ -38,9 +38,9 @@ BoxRange links_with_any_stiffness(const CertifiedBox& box) {
   return links;
 }
 
-std::string gains_text(const FeedbackGains& gains, const char* role) {
+std::string gains_text(const FeedbackGains& gains) {
   std::string text =
-      format("%s: %s, %s, %s\n", role, str(gains.controller).c_str(),
+      format("gains: %s, %s, %s\n", str(gains.controller).c_str(),
              gains.has_integrator ? "with integrator" : "without integrator",
              gains.scheduled() ? "scheduled by temperature and velocity" : "one gain, no temperature");
   text += format(
@@ -91,7 +91,7 @@ std::string description(const GainTable& table) {
     text += format("  T%-3zu %14.4f %13.4f %12.5f %13.5f %19.6f\n", i + 1, rule.center_C, rule.width_C,
                    rule.friction.static_Nm, rule.friction.coulomb_Nm, rule.friction.viscous_Nms_rad);
   }
-  text += "\n" + gains_text(table.primary, "primary") + "\n" + gains_text(table.fallback, "fallback");
+  text += "\n" + gains_text(table.primary);
   text += format("\ncreated %s by %s, %s\nfriction file sha256 %s\n",
                  str(table.provenance.created_utc).c_str(), str(table.provenance.tool).c_str(),
                  table.provenance.sampling == Sampling::kForwardEuler ? "forward Euler" : "zero-order hold",

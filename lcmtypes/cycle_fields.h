@@ -40,7 +40,6 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
   visit(FieldName{"mode", "1"}, cycle.mode);
   visit(FieldName{"fault", "1"}, cycle.fault);
   visit(FieldName{"notices", "1"}, cycle.notices);
-  visit(FieldName{"gains_in_use", "1"}, cycle.gains_in_use);
   visit(FieldName{"temperature_status", "1"}, cycle.temperature_status);
   if constexpr (requires { cycle.faults_total; }) visit(FieldName{"faults_total", "1"}, cycle.faults_total);
   visit(FieldName{"drive_error", "1"}, cycle.drive_error);

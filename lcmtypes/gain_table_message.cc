@@ -80,7 +80,6 @@ void visit_table(const Copy& copy, Table& table, Message& message) {
   visit_friction(copy, table.friction, message);
   copy(table.torque_limit_Nm, message.torque_limit_Nm);
   visit_gains(copy, table.primary, message.primary);
-  visit_gains(copy, table.fallback, message.fallback);
   copy(table.provenance.sampling, message.sampling);
   copy(table.provenance.created_utc.bytes, message.created_utc);
   copy(table.provenance.tool.bytes, message.tool);

@@ -40,7 +40,6 @@ void visit_fields(const temperature_v1& message, Visit&& visit) {
   visit("temperature_used_C", message.temperature_used_C);
   visit("age_s", message.age_s);
   visit("status", message.status);
-  visit("fallback_in_use", message.fallback_in_use);
 }
 
 template <typename Visit>

@@ -78,7 +78,6 @@ void Schema::numbers(std::string_view name) {
 Words words_of(const state_v1& state) {
   return {{"mode_text", to_text(static_cast<Mode>(state.mode))},
           {"fault_text", to_text(static_cast<Fault>(state.fault))},
-          {"gains_in_use_text", to_text(static_cast<GainsInUse>(state.gains_in_use))},
           {"temperature_status_text", to_text(static_cast<TemperatureStatus>(state.temperature_status))}};
 }
 

@@ -33,6 +33,6 @@ set xrange [0:3]
 set xlabel "time, s"
 set title "0.01 rad at -10 °C: end of the move" font ",13"
 plot file("cold-pid") using "time_s":(error_mrad(1e3)) with lines lc rgb red title "PID of Zhao (2006)", \
-  file("cold-fallback") using "time_s":(error_mrad(1e3)) with lines lc rgb green title "temperature not known: C3", \
+  file("cold-c3") using "time_s":(error_mrad(1e3)) with lines lc rgb green title "temperature not used: C3", \
   file("cold-extended") using "time_s":(error_mrad(1e3)) with lines lc rgb blue title "temperature known: C4"
 unset multiplot

@@ -18,7 +18,6 @@ struct State : state_v1 {
 
   Mode mode;
   Fault fault;
-  GainsInUse gains_in_use;
   TemperatureStatus temperature_status;
   std::chrono::steady_clock::time_point received;  ///< by this machine's clock
 

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "strainwave/gains_in_use.h"
-
 namespace strainwave {
 
 /// state_v1.mode
@@ -57,7 +55,6 @@ enum class Fault : std::int32_t {
 enum class Notice : std::int32_t {
   kTorqueLimited = 1 << 0,
   kTemperatureClamped = 1 << 1,
-  kFallbackGains = 1 << 2,
   kSetpointExpired = 1 << 3,
   kReadingMissed = 1 << 4,
   kSpeedLimited = 1 << 5,
@@ -149,7 +146,6 @@ std::string_view to_text(Notice notice) noexcept;
 std::string_view to_text(Reason reason) noexcept;
 std::string_view to_text(Action action) noexcept;
 std::string_view to_text(TemperatureStatus status) noexcept;
-std::string_view to_text(GainsInUse gains) noexcept;  // state_v1.gains_in_use
 
 /// Where the limit behind a fault or notice is configured ("joint.limits.torque_limit_Nm"); empty when nothing can be set.
 std::string_view configuration_key(Fault fault) noexcept;

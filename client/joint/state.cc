@@ -13,7 +13,6 @@ State::State(const state_v1& message, std::chrono::steady_clock::time_point when
     : state_v1(message),
       mode(static_cast<Mode>(message.mode)),
       fault(static_cast<Fault>(message.fault)),
-      gains_in_use(static_cast<GainsInUse>(message.gains_in_use)),
       temperature_status(static_cast<TemperatureStatus>(message.temperature_status)),
       received(when) {}
 

@@ -25,7 +25,6 @@ nlohmann::ordered_json joint_json(const JointName& whose, const JointView& view)
   });
   fields["mode_text"] = to_text(static_cast<Mode>(view.state.mode));
   fields["fault_text"] = to_text(static_cast<Fault>(view.state.fault));
-  fields["gains_in_use_text"] = to_text(static_cast<GainsInUse>(view.state.gains_in_use));
   fields["temperature_status_text"] = to_text(static_cast<TemperatureStatus>(view.state.temperature_status));
   fields["error_rad"] = tracking_error_rad(view);
   fields["notes"] = state_notes(view, age_s);

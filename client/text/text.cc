@@ -24,12 +24,15 @@ namespace {
 
 constexpr std::size_t kTerminalColumns = 80;
 
-constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
-                              Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
-                              Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kOffStream,
-                              Notice::kPositionLate,    Notice::kOffTarget,          Notice::kLoadHigh,
-                              Notice::kOtherInertia,    Notice::kPathPaused,         Notice::kYielded,
-                              Notice::kSamplesMissing,  Notice::kFrictionDiffers,    Notice::kDerated};
+constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped,
+                              Notice::kSetpointExpired, Notice::kReadingMissed,
+                              Notice::kSpeedLimited,    Notice::kNotHomed,
+                              Notice::kAtLimitSwitch,   Notice::kOffStream,
+                              Notice::kPositionLate,    Notice::kOffTarget,
+                              Notice::kLoadHigh,        Notice::kOtherInertia,
+                              Notice::kPathPaused,      Notice::kYielded,
+                              Notice::kSamplesMissing,  Notice::kFrictionDiffers,
+                              Notice::kDerated};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -40,7 +43,6 @@ bool is_degree_mark(std::string_view text) {
 std::string meaning(std::string_view field, const state_v1& state) {
   if (field == "mode") return std::string(to_text(static_cast<Mode>(state.mode)));
   if (field == "fault") return fault_words(static_cast<Fault>(state.fault), state.drive_error);
-  if (field == "gains_in_use") return std::string(to_text(static_cast<GainsInUse>(state.gains_in_use)));
   if (field == "temperature_status") {
     return std::string(to_text(static_cast<TemperatureStatus>(state.temperature_status)));
   }

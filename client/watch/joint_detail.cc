@@ -76,7 +76,7 @@ std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
   for (int i = 0; i < std::clamp(state.rule_count, 0, 16); ++i)
     weights.push_back(state.temperature_weights[i]);
   return fmt::format(
-      "{}, rules {}, standstill {:.2f}; {}", to_text(static_cast<GainsInUse>(state.gains_in_use)),
+      "rules {}, standstill {:.2f}; {}",
       sparkline(weights, static_cast<int>(weights.size()), 1.0, model.unicode), state.zero_velocity_weight,
       std::isnan(state.temperature_used_C)
           ? "temperature " + temperature_source(joint)

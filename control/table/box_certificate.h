@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificate of a table. The receiver proves it anew without a solver: every gain rule, every blend of them and the fallback are
+// The certificate of a table. The receiver proves it anew without a solver: every gain rule and every blend of them are
 // stable on every joint of the box, and the cells cover the box. Not real-time. Source: spring_certificate.h, of each cell.
 //
 // Proved is the feedback in the loop that the daemon closes around the encoder on the box's side: its velocity from the readings, its lead,

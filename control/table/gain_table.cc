@@ -242,11 +242,6 @@ std::optional<std::string> find_defect(const GainTable& table) {
   inspect_friction(inspector, table.friction, table.torque_limit_Nm);
   const int plant_rules = 1 + table.friction.rule_count;
   inspect_gains(inspector, table.primary, plant_rules, "primary");
-  inspect_gains(inspector, table.fallback, plant_rules, "fallback");
-  inspector.require(table.fallback.rule_count == 1,
-                    "fallback.rule_count: must be 1: it runs without temperature");
-  inspector.require(table.fallback.has_integrator == table.primary.has_integrator,
-                    "fallback.has_integrator: must be that of primary, for a change-over without a bump");
   const auto sampling = static_cast<std::int32_t>(table.provenance.sampling);
   inspector.require(sampling == 0 || sampling == 1, "provenance.sampling = " + std::to_string(sampling) +
                                                         ": must be 0 (forward Euler) or 1 (zero-order hold)");

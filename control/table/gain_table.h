@@ -86,7 +86,7 @@ struct Provenance {
   FixedString<64> note;
 };
 
-/// One table: the controller in use and the temperature-free one that replaces it when temperature is not known.
+/// One table.
 struct GainTable {
   std::int32_t format = kGainTableFormat;
   FixedString<48> name;
@@ -94,8 +94,7 @@ struct GainTable {
   CertifiedBox box;     ///< the joints with a spring that they are certified on besides
   FuzzyFriction friction;
   double torque_limit_Nm = 0.0;  ///< symmetric, joint side; the joint's own limit applies as well
-  FeedbackGains primary;         ///< C4 (or C2, C1)
-  FeedbackGains fallback;        ///< C3 (or C1), rule_count 1, same states as primary
+  FeedbackGains primary;         ///< C4 (or C1 to C3)
   Provenance provenance;
 };
 

@@ -212,7 +212,6 @@ std::string to_json(const GainTable& table) {
                                  {"friction", fuzzy_friction_to_json(table.friction)},
                                  {"torque_limit_Nm", table.torque_limit_Nm},
                                  {"primary", gains_to_json(table.primary)},
-                                 {"fallback", gains_to_json(table.fallback)},
                                  {"provenance", provenance_to_json(table.provenance)}};
   return document.dump(2) + "\n";
 }
@@ -237,7 +236,6 @@ GainTable gain_table_from_json(std::string_view text, const std::string& source)
   table.friction = fuzzy_friction_from_json(object.object("friction"));
   table.torque_limit_Nm = object.number("torque_limit_Nm");
   table.primary = gains_from_json(object.object("primary"));
-  table.fallback = gains_from_json(object.object("fallback"));
   table.provenance = provenance_from_json(object.object("provenance"));
   object.finish();
   if (const auto defect = find_defect(table)) throw InputError(source + ": " + *defect);

@@ -219,8 +219,8 @@ WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, c
 
 std::vector<GainRow> gains_of(const GainTable& table) {
   std::vector<GainRow> gains;
-  for (const FeedbackGains* controller : {&table.primary, &table.fallback})
-    for (int rule = 0; rule < controller->rule_count; ++rule) gains.push_back(controller->gain(rule));
+  gains.reserve(static_cast<std::size_t>(table.primary.rule_count));
+  for (int rule = 0; rule < table.primary.rule_count; ++rule) gains.push_back(table.primary.gain(rule));
   return gains;
 }
 

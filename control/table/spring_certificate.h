@@ -78,7 +78,7 @@ struct WorstCorner {
 };
 WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop);
 
-/// Every gain of both controllers, so that a change-over is a blend like any other.
+/// Every rule's.
 std::vector<GainRow> gains_of(const GainTable& table);
 
 /// The link's side, the spring and friction in words; and a margin with its corner.

@@ -65,8 +65,6 @@ void Answers::temperature(const StateRecord& record) {
   message.temperature_used_C = record.state.temperature_used_C;
   message.age_s = record.temperature_age_s;
   message.status = record.state.temperature_status;
-  message.fallback_in_use =
-      static_cast<GainsInUse>(record.state.gains_in_use) == GainsInUse::kFallback ? 1 : 0;
   const auto& joint = joints_[static_cast<std::size_t>(record.joint_index)];
   out_.write(wire(channel(prefix_, joint, channel_kind::kTemperature), message));
 }

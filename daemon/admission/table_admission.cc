@@ -36,16 +36,16 @@ constexpr double kTolerance = 1e-9;
 constexpr double kStructuralDamping = 0.01;
 
 // No cell of the box proves what anti-windup takes of these gains.
-TableVerdict judge_antiwindup(const char* which, const FeedbackGains& gains, const PlantIdentity& plant) {
+TableVerdict judge_antiwindup(const FeedbackGains& gains, const PlantIdentity& plant) {
   if (gains.has_integrator == 0 || proves_slow_part(gains, plant)) return {};
   return {
       Reason::kTableNotCertified,
-      std::string(which) + " gains " + std::string(gains.controller.view()) +
+      "gains " + std::string(gains.controller.view()) +
           ": P of rule 0 does not fall on this joint, by which anti-windup works; design the table for it "
           "with strainwave-design gains"};
 }
 
-// Over the slopes, the extremes of viscous friction, and every gain of both controllers.
+// Over the slopes, the extremes of viscous friction, and every gain.
 WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
   const std::vector<GainRow> gains = gains_of(table);
   const double most_viscous_Nms_rad = table.friction.largest_viscous_Nms_rad();
@@ -162,14 +162,11 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
                 note_of(table)};
   // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
-  TableVerdict verdict = judge_antiwindup("primary", table.primary, plant);
-  if (verdict.reason != Reason::kAccepted) return verdict;
-  verdict = judge_antiwindup("fallback", table.fallback, plant);
+  TableVerdict verdict = judge_antiwindup(table.primary, plant);
   if (verdict.reason != Reason::kAccepted) return verdict;
   if (joint.link) verdict = judge_on_spring(table, joint);
   if (verdict.reason != Reason::kAccepted) return verdict;
-  verdict.text = std::string(table.primary.controller.view()) + " with fallback " +
-                 std::string(table.fallback.controller.view()) +
+  verdict.text = std::string(table.primary.controller.view()) +
                  which_torque_limit_holds(table, joint.torque_limit_Nm) + note_of(table);
   return verdict;
 }

@@ -57,8 +57,7 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   check.max_rate_C_s = section.number_or("max_rate_C_s", check.max_rate_C_s, {1e-3, 1e3});
   check.max_step_C = section.number_or("max_step_C", check.max_step_C, {1e-3, 300.0});
   check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
-  check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
-  check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
+  check.loss_is_fault = section.choice_or("on_loss", "keep", {"keep", "fault"}) == "fault";
   // What is above max_C is not believed: the limit must be reached before.
   if (loop.limits.temperature_limit_C >= check.max_C)
     section.note_error(section.place("max_C") + ": a temperature above joint.limits.temperature_limit_C = " +

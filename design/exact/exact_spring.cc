@@ -148,9 +148,8 @@ class CellProof {
         period_s_(table.plant.period_s),
         delay_periods_(cell.delay_periods),
         report_(report) {
-    for (const FeedbackGains* gains : {&table.primary, &table.fallback})
-      for (int rule = 0; rule < gains->rule_count; ++rule)
-        feedbacks_.push_back(feedback(gains->gain(rule), table, cell.delay_periods));
+    for (int rule = 0; rule < table.primary.rule_count; ++rule)
+      feedbacks_.push_back(feedback(table.primary.gain(rule), table, cell.delay_periods));
     P_ = trimmed(lyapunov_matrix(cell, feedbacks_.front().memory.columns()), left_out_);
     report_.inequalities += 1;
     if (!is_positive_definite(P_)) refuse("P is not positive definite");

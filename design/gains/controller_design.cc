@@ -258,21 +258,7 @@ DesignedGains design_gains(Controller controller, const DesignRequest& request) 
   }
 }
 
-namespace {
-
-FeedbackGains design_fallback(Controller primary, const DesignRequest& request) {
-  try {
-    return design_gains(fallback_of(primary), request).gains;
-  } catch (const NotAchieved& error) {
-    throw NotAchieved(std::string(error.what()) + " " + name_of(fallback_of(primary)) +
-                      " is the fallback of " + name_of(primary) +
-                      ", which was found: one gain for every temperature.");
-  }
-}
-
-}  // namespace
-
-GainTable design_table(Controller primary, const TableRequest& request) {
+GainTable design_table(Controller controller, const TableRequest& request) {
   GainTable table;
   table.name = std::string_view(request.name);
   table.plant = request.design.plant;
@@ -284,8 +270,7 @@ GainTable design_table(Controller primary, const TableRequest& request) {
   table.provenance.friction_sha256 = std::string_view(request.friction_sha256);
   table.provenance.note = std::string_view(request.note);
   table.provenance.sampling = request.design.sampling;
-  table.primary = design_gains(primary, request.design).gains;
-  table.fallback = primary == fallback_of(primary) ? table.primary : design_fallback(primary, request.design);
+  table.primary = design_gains(controller, request.design).gains;
   if (const auto defect = find_defect(table)) throw InputError("gains: " + *defect);
   return table;
 }

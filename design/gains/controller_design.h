@@ -22,10 +22,6 @@ constexpr bool has_integrator(Controller controller) {
 constexpr bool is_scheduled(Controller controller) {
   return controller == Controller::kC2 || controller == Controller::kC4;
 }
-/// The temperature-free controller with the same states.
-constexpr Controller fallback_of(Controller controller) {
-  return has_integrator(controller) ? Controller::kC3 : Controller::kC1;
-}
 
 struct DesignRequest {
   PlantIdentity plant;
@@ -71,7 +67,7 @@ DesignedGains solve_gains(Controller controller, const DesignRequest& request);
 /// at last all of the cost: from that everything follows, and every rule has the same gain.
 DesignedGains design_gains(Controller controller, const DesignRequest& request);
 
-/// A whole table: `primary` and its fallback, both certified.
+/// A whole table, certified.
 struct TableRequest {
   DesignRequest design;
   std::string name;
@@ -81,6 +77,6 @@ struct TableRequest {
   std::string note;  ///< of the table's provenance
   std::string created_utc;
 };
-GainTable design_table(Controller primary, const TableRequest& request);
+GainTable design_table(Controller controller, const TableRequest& request);
 
 }  // namespace strainwave

@@ -58,8 +58,7 @@ void run(const BoundOptions& options, bool one_reference) {
   std::vector<Contender> contenders = {pid_contender()};
   if (!options.table.empty()) {
     const GainTable table = read_gain_table(options.table);
-    for (const char* kind : {"fallback", "plain", "extended"})
-      contenders.push_back(contender_of_kind(kind, table));
+    for (const char* kind : {"plain", "extended"}) contenders.push_back(contender_of_kind(kind, table));
   }
   ClosedLoopConfig config = loop_config(options.loop);
   const bool flexible = config.plant.effects.transmission.has_value();

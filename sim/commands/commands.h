@@ -56,7 +56,7 @@ void add_loop_options(CLI::App& command, LoopOptions& options);
 /// Throws InputError.
 ClosedLoopConfig loop_config(const LoopOptions& options);
 
-/// "extended" (as the daemon runs it), "plain" (the bare law) or "fallback" with `table`, or "pid". Throws InputError for
+/// "extended" (as the daemon runs it) or "plain" (the bare law) with `table`, or "pid". Throws InputError for
 /// another kind.
 Contender contender_of_kind(const std::string& kind, const GainTable& table);
 

@@ -67,12 +67,7 @@ Contender contender_of_kind(const std::string& kind, const GainTable& table) {
   if (kind == "pid") return pid_contender();
   if (kind == "plain") return plain_contender(name, table);
   if (kind == "extended") return extended_contender(name + "+", table);
-  if (kind == "fallback") {
-    GainTable fallback = table;
-    fallback.primary = table.fallback;
-    return plain_contender(std::string(table.fallback.controller.view()), fallback);
-  }
-  throw InputError("--controller", "controller", kind, "must be extended, plain, fallback or pid");
+  throw InputError("--controller", "controller", kind, "must be extended, plain or pid");
 }
 
 }  // namespace strainwave

@@ -25,8 +25,7 @@ void run(RobustnessOptions& options) {
   options.study.plant = plant_named(options.plant);
   const GainTable table = read_gain_table(options.table);
   std::vector<Contender> contenders = {pid_contender()};
-  for (const char* kind : {"fallback", "plain", "extended"})
-    contenders.push_back(contender_of_kind(kind, table));
+  for (const char* kind : {"plain", "extended"}) contenders.push_back(contender_of_kind(kind, table));
   make_folder(options.out);
   const auto draws = run_robustness(options.study, contenders);
   TextTable summary = robustness_summary(draws, contenders);

@@ -153,8 +153,8 @@ void add_run_command(CLI::App& program, CommandBody& chosen) {
       program.add_subcommand("run", "One closed loop: any table, reference, temperature, plant");
   auto* table = command->add_option("--table", options->table, "gain table (JSON); not needed for the PID");
   auto* kind = command->add_option("--controller", options->controller,
-                                   "extended (as the daemon runs it), plain (the bare law), fallback or pid");
-  kind->capture_default_str()->check(CLI::IsMember({"extended", "plain", "fallback", "pid"}));
+                                   "extended (as the daemon runs it), plain (the bare law) or pid");
+  kind->capture_default_str()->check(CLI::IsMember({"extended", "plain", "pid"}));
   add_loop_options(*command, options->loop);
   command->add_option("--out", options->out, "CSV file for every sample");
   command->callback([&chosen, options, table] {

@@ -144,6 +144,7 @@ FlexibleTables read_flexible_tables(const std::filesystem::path& directory) {
   for (const char* total : {"total-0.119", "total-0.178", "total-0.356", "total-1.089"}) {
     tables.c1.push_back(read_gain_table(directory / total / "c1.json"));
     tables.c2.push_back(read_gain_table(directory / total / "c2.json"));
+    tables.c3.push_back(read_gain_table(directory / total / "c3.json"));
     tables.c4.push_back(read_gain_table(directory / total / "c4.json"));
   }
   return tables;
@@ -165,11 +166,7 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
   if (!all) return contenders;
   contenders.push_back(plain("C1", tables.c1, &plain_contender));
   contenders.push_back(plain("C2", tables.c2, &plain_contender));
-  contenders.push_back(plain("C3", tables.c4, [](const std::string& name, const GainTable& table) {
-    GainTable fallback = table;
-    fallback.primary = table.fallback;
-    return plain_contender(name, fallback);
-  }));
+  contenders.push_back(plain("C3", tables.c3, &plain_contender));
   return contenders;
 }
 

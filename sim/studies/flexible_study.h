@@ -37,12 +37,12 @@ struct FlexibleTables {
   GainTable shipped;             ///< csf-17-50.json: what the daemon runs, certified for one period of delay
   GainTable shipped_for_delays;  ///< csf-17-50-delays.json: softer, certified for one and two
   /// Of the plain controllers, for several total inertias.
-  std::vector<GainTable> c1, c2, c4;
+  std::vector<GainTable> c1, c2, c3, c4;
   /// The one for the inertia nearest to `total_kgm2`.
   static const GainTable& nearest(const std::vector<GainTable>& tables, double total_kgm2);
 };
 
-/// Reads csf-17-50*.json and total-*/c1.json, c2.json and c4.json of `directory`. Throws InputError.
+/// Reads csf-17-50*.json and total-*/c1.json .. c4.json of `directory`. Throws InputError.
 FlexibleTables read_flexible_tables(const std::filesystem::path& directory);
 
 /// PID, plain C4, and the daemon's controller; with `all` also plain C1 to C3.

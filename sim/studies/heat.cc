@@ -46,7 +46,7 @@ std::vector<Sensing> sensings(const HeatConfig& config) {
           {"+" + number(config.bias_C) + " degC", 0.0, shifted(config.bias_C)},
           {"-" + number(config.bias_C) + " degC", 0.0, shifted(-config.bias_C)},
           {"ambient only", 0.0, [ambient_temperature_C](double) { return ambient_temperature_C; }},
-          {"none (fallback)", 0.0, [](double) { return std::numeric_limits<double>::quiet_NaN(); }}};
+          {"none", 0.0, [](double) { return std::numeric_limits<double>::quiet_NaN(); }}};
 }
 
 constexpr int kWindows = 100;

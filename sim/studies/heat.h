@@ -33,7 +33,7 @@ struct HeatRun {
   Points told_temperature_C;
 };
 
-/// Runs `table` as the daemon does (extended C4) in each way; without a temperature that means its fallback gains.
+/// Runs `table` as the daemon does (extended C4) in each way.
 /// Throws InputError.
 std::vector<HeatRun> run_heat(const HeatConfig& config, const GainTable& table);
 

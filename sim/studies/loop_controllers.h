@@ -43,7 +43,7 @@ class BackwardDifference {
 /// neither.
 class FeedbackLoopController final : public LoopController {
  public:
-  /// `gains` is the table's primary or fallback set; `torque_limit_Nm` may be infinite.
+  /// `gains`: the table's; `torque_limit_Nm` may be infinite.
   FeedbackLoopController(const FeedbackGains& gains, const FuzzyFriction& friction,
                          const PlantIdentity& plant, double torque_limit_Nm) noexcept;
 

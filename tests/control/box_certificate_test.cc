@@ -137,7 +137,7 @@ TEST(BoxCertificate, RefusesATableWithOneMatrixOrOneGainChanged) {
   table.primary.F[2][1] *= -1.0;
   EXPECT_FALSE(certify_box(table).certified);
   table = sound;
-  table.fallback.F[0][2] *= 4.0;
+  table.primary.F[0][2] *= 4.0;
   const BoxReport report = certify_box(table);
   EXPECT_FALSE(report.certified);
   EXPECT_NE(report.text.find("stiffness"), std::string::npos) << report.text;

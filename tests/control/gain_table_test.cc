@@ -43,7 +43,6 @@ TEST(GainTable, EveryNumberThatIsNotFiniteIsADefect) {
       [](GainTable& t) -> double& { return t.primary.cost_bound; },
       [](GainTable& t) -> double& { return t.primary.F[3][1]; },
       [](GainTable& t) -> double& { return t.primary.P[3][4]; },
-      [](GainTable& t) -> double& { return t.fallback.F[0][2]; },
   };
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (const double bad :
@@ -77,19 +76,10 @@ TEST(GainTable, AnAsymmetricLyapunovMatrixIsADefectAndItsNameSaysWhere) {
 
 TEST(GainTable, HiddenContentBeyondTheCountsIsADefect) {
   GainTable table = testing::shipped_table("c4");
-  table.fallback.F[1][0] = 1.0;
+  table.primary.F[kMaxRules - 1][0] = 1.0;
   EXPECT_NE(find_defect(table), std::nullopt);
   table = testing::shipped_table("c4");
   table.name.bytes[40] = 'x';
-  EXPECT_NE(find_defect(table), std::nullopt);
-}
-
-TEST(GainTable, AFallbackNeedsTheStatesOfThePrimaryAndNoTemperature) {
-  GainTable table = testing::shipped_table("c4");
-  table.fallback = table.primary;
-  EXPECT_NE(find_defect(table), std::nullopt);
-  table = testing::shipped_table("c4");
-  table.fallback = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c1.json").fallback;
   EXPECT_NE(find_defect(table), std::nullopt);
 }
 

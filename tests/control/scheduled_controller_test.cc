@@ -177,7 +177,7 @@ TEST(ScheduledController, AGainChangeWithALeadMakesNoTorqueStepAndTheLeadGoesOn)
     ScheduledController outgoing = leading(lead_before);
     for (int k = 0; k < 5; ++k) outgoing.step(input_over(1e-4 * k, 0.02 * k));
     const ControllerInput input = input_over(5e-4, 0.1);
-    ScheduledController incoming(table().fallback, table().friction, table().plant, 2.0);
+    ScheduledController incoming(testing::shipped_table("c3").primary, table().friction, table().plant, 2.0);
     const std::optional<double> last_law_Nm = outgoing.last_law_Nm();
     const double torque_Nm = outgoing.step(input).torque_Nm;
     incoming.carry_over(input, torque_Nm, last_law_Nm);

@@ -55,7 +55,7 @@ std::string doing_text(Doing doing) {
 
 std::string reaction_text(const InjectedFaultCase& entry) {
   if (entry.reaction == Reaction::kNone) return "none: tolerated";
-  if (entry.reaction == Reaction::kFallbackGains) return "notice 4, fallback gains";
+  if (entry.reaction == Reaction::kTemperatureUnknown) return "`temperature_status`; goes on";
   std::string text = "fault ";
   for (const Fault fault : entry.faults)
     text += (fault == entry.faults.front() ? "" : " or ") + std::to_string(static_cast<int>(fault));

@@ -11,7 +11,7 @@ namespace {
 TEST(TableReport, DescribesEveryRuleWithUnits) {
   const std::string text = description(testing::shipped_table("rhs17-6006"));
   for (const char* const part :
-       {"rhs17-6006", "0.089 kg m^2", "zero velocity", "high velocity, T5", "fallback: C3", "[Nm/rad]"}) {
+       {"rhs17-6006", "0.089 kg m^2", "zero velocity", "high velocity, T5", "gains: C4", "[Nm/rad]"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }

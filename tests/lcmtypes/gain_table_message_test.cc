@@ -67,7 +67,7 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   table.friction.rule_count = 5;
   table.friction.rules[4].friction.viscous_Nms_rad = 0.27;
   table.primary.set(3, GainRow(-304.0, -967.1, -16.63), 2.0 * StateMatrix::Identity());
-  table.fallback.weights.torque = 1e-6;
+  table.primary.weights.torque = 1e-6;
   table.box.lead_periods = 2.0;
   table.box.cells[23].P[44] = 7.0;
   const gain_table_v1 message = to_message(table);
@@ -81,7 +81,7 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   EXPECT_EQ(message.primary.F[3][1], -967.1);
   EXPECT_EQ(message.primary.P[3][4], 2.0);
   EXPECT_EQ(message.primary.P[3][5], 0.0);
-  EXPECT_EQ(message.fallback.weight_torque, 1e-6);
+  EXPECT_EQ(message.primary.weight_torque, 1e-6);
   EXPECT_EQ(message.box_lead_periods, 2.0);
   EXPECT_EQ(message.box_cells[23].P[44], 7.0);
 }

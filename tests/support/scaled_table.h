@@ -13,9 +13,8 @@ inline GainTable scaled_table(const std::string& name, double inertia_kgm2) {
   GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + name);
   const double scale = inertia_kgm2 / table.plant.inertia_kgm2;
   table.plant.inertia_kgm2 = inertia_kgm2;
-  for (FeedbackGains* gains : {&table.primary, &table.fallback})
-    for (int rule = 0; rule < gains->rule_count; ++rule)
-      gains->set(rule, scale * gains->gain(rule), gains->lyapunov(rule));
+  for (int rule = 0; rule < table.primary.rule_count; ++rule)
+    table.primary.set(rule, scale * table.primary.gain(rule), table.primary.lyapunov(rule));
   return table;
 }
 

@@ -32,10 +32,10 @@ from .motion import Arrival
 from .path import Path
 from .state import Limits, State
 from .stream import Stream
-from .vocabulary import Action, Fault, GainsInUse, Mode, Notice, Reason, TemperatureStatus
+from .vocabulary import Action, Fault, Mode, Notice, Reason, TemperatureStatus
 
 __all__ = ["Joint", "Path", "Stream", "Arrival", "State", "Limits",
            "StrainwaveError", "InvalidInput", "NoAnswer", "Refused", "Faulted", "NotDone", "Yielded",
-           "Mode", "Fault", "Reason", "Notice", "Action", "GainsInUse", "TemperatureStatus",
+           "Mode", "Fault", "Reason", "Notice", "Action", "TemperatureStatus",
            "ack_v1", "box_cell_v1", "command_v1", "feedback_gains_v1", "gain_table_v1", "inject_v1", "limits_v1", "path_v1", "setpoint_v1",
            "state_v1", "temperature_v1", "timing_v1"]

@@ -3,7 +3,7 @@
 from .limits_v1 import limits_v1
 from .messages import text_of
 from .state_v1 import state_v1
-from .vocabulary import Fault, GainsInUse, Mode, Notice, TemperatureStatus, fault_words
+from .vocabulary import Fault, Mode, Notice, TemperatureStatus, fault_words
 
 
 class _Snapshot:
@@ -26,7 +26,6 @@ class State(_Snapshot):
         self.mode = Mode(message.mode)
         self.fault = Fault(message.fault)
         self.notices = Notice(message.notices & 0xFFFFFFFF)
-        self.gains_in_use = GainsInUse(message.gains_in_use)
         self.temperature_status = TemperatureStatus(message.temperature_status)
         # Only as many as the table has rules mean anything.
         for field in ("temperature_weights", "friction_rule_C", "friction_scales"):

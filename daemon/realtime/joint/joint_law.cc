@@ -57,7 +57,7 @@ void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_op
   measurement.temperature_C = drive.temperature().used_C();
   measurement.has_position = drive.fresh();
   measurement.has_velocity = reading.has_velocity;
-  measurement.temperature_valid = drive.temperature().usable();
+  measurement.temperature_valid = drive.temperature().known();
   measurement.late_periods = reading.position_late_periods;
   measurement.elapsed_periods =
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));

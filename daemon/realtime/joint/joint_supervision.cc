@@ -33,10 +33,9 @@ void note_limits(JointInLoop& joint) noexcept {
   if (motion.off_stream) joint.notice(Notice::kOffStream);
   if (joint.law.shows_other_inertia()) joint.notice(Notice::kOtherInertia);
   const FuzzyFriction& friction = joint.law.table()->table.friction;
-  const double temperature_C = joint.drive.temperature().used_C();
-  if (motion.gains_in_use == GainsInUse::kFallback && !joint.config.controller.drive_closes_loop())
-    joint.notice(Notice::kFallbackGains);
-  else if (temperature_C < friction.temperature_min_C || temperature_C > friction.temperature_max_C)
+  const TemperatureCheck& temperature = joint.drive.temperature();
+  if (temperature.known() && (temperature.used_C() < friction.temperature_min_C ||
+                              temperature.used_C() > friction.temperature_max_C))
     joint.notice(Notice::kTemperatureClamped);
   const double speed_limit_rad_s = joint.config.controller.motion.velocity_rad_s;
   if (std::abs(motion.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)

@@ -19,7 +19,7 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
   if (!std::isfinite(temperature_C) || temperature_C < config_.min_C || temperature_C > config_.max_C)
     return TemperatureStatus::kOutOfRange;
   if (seconds(now_ns - produced_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
-  if (use_ != Use::kNotYet) {
+  if (known_) {
     // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
     // nothing was believed, the more may have changed, so that the signal can return.
     const double silence_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
@@ -39,21 +39,14 @@ void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64
     status_ = TemperatureStatus::kTooOld;
   }
 
-  if (status_ != TemperatureStatus::kValid) {
-    if (use_ == Use::kUsed) use_ = Use::kRecovering;
-    good_since_ns_ = now_ns;
-    return;
-  }
-  if (has_reading) {
-    const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
-    const double elapsed_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
-    recent_C_ += use_ != Use::kNotYet
-                     ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s)
+  if (!has_reading || status_ != TemperatureStatus::kValid) return;
+  const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
+  const double elapsed_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
+  recent_C_ = known_ ? recent_C_ + (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s)
                      : temperature_C;
-    accepted_C_ = temperature_C;
-    accepted_ns_ = produced_ns;
-  }
-  if (use_ == Use::kNotYet || seconds(now_ns - good_since_ns_) >= config_.recovery_s) use_ = Use::kUsed;
+  accepted_C_ = temperature_C;
+  accepted_ns_ = produced_ns;
+  known_ = true;
 }
 
 }  // namespace strainwave

@@ -16,7 +16,6 @@ struct TemperatureCheckConfig {
   double max_step_C = 6.0;     ///< a reading may differ by this much from the recent past whatever the rate
   double max_age_s = 5.0;      ///< older values are not used
   bool loss_is_fault = false;  ///< a joint under control that loses its temperature stops
-  double recovery_s = 2.0;     ///< after a loss the signal must be good for this long before it is used again
 };
 
 class TemperatureCheck {
@@ -27,10 +26,8 @@ class TemperatureCheck {
   void update(bool has_reading, double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) noexcept;
 
   TemperatureStatus status() const noexcept { return status_; }
-  /// Whether the schedule may use temperature: valid, and not within the recovery time after a loss.
-  bool usable() const noexcept { return use_ == Use::kUsed; }
   /// Whether any value has been plausible.
-  bool known() const noexcept { return use_ != Use::kNotYet; }
+  bool known() const noexcept { return known_; }
   /// The last plausible value; meaningful only once it is known.
   double used_C() const noexcept { return accepted_C_; }
   /// From it to `limit_C`; NaN while the sensor says nothing plausible.
@@ -47,21 +44,17 @@ class TemperatureCheck {
   double age_s(std::int64_t now_ns) const noexcept;
 
  private:
-  /// The first plausible reading is used at once; after a loss the signal has to prove itself.
-  enum class Use { kNotYet, kUsed, kRecovering };
-
   bool seen() const noexcept { return status_ != TemperatureStatus::kNeverSeen; }
   TemperatureStatus judge(double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) const noexcept;
 
   TemperatureCheckConfig config_;
   TemperatureStatus status_ = TemperatureStatus::kNeverSeen;
-  Use use_ = Use::kNotYet;
+  bool known_ = false;
   double measured_C_ = std::numeric_limits<double>::quiet_NaN();
   double accepted_C_ = 0.0;
   double recent_C_ = 0.0;  ///< accepted readings, low-passed so that a ramp of max_rate lags by max_step
   std::int64_t measured_ns_ = 0;
   std::int64_t accepted_ns_ = 0;
-  std::int64_t good_since_ns_ = 0;
 };
 
 }  // namespace strainwave

@@ -35,7 +35,6 @@ struct FlightSample {
   std::uint32_t notices = 0;      ///< as in state_v1
   std::uint8_t mode = 0;
   std::uint8_t fault = 0;
-  std::uint8_t gains_in_use = 0;
   std::uint8_t temperature_status = 0;
   std::uint8_t drive_state = 0;  ///< DriveState
   std::uint8_t reading_fresh = 0;

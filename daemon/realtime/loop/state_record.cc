@@ -38,7 +38,6 @@ void fill_motion(const JointInLoop& joint, state_v1& state) noexcept {
   state.torque_feedback_Nm = motion.output.feedback_torque_Nm;
   state.torque_feedforward_Nm = motion.output.feedforward_torque_Nm;
   state.zero_velocity_weight = motion.output.zero_velocity_weight;
-  state.gains_in_use = static_cast<std::int32_t>(motion.gains_in_use);
   state.yield_load_Nm = joint.yield ? joint.yield->load_Nm : kUnknown;
   state.yield_limit_Nm = joint.yield ? joint.yield->limit_Nm : kUnknown;
   state.yield_position_rad = joint.yield ? joint.yield->position_rad : kUnknown;
@@ -113,7 +112,6 @@ FlightSample flight_sample(const StateRecord& record, const CycleTime& time, Dri
   sample.notices = static_cast<std::uint32_t>(state.notices);
   sample.mode = static_cast<std::uint8_t>(state.mode);
   sample.fault = static_cast<std::uint8_t>(state.fault);
-  sample.gains_in_use = static_cast<std::uint8_t>(state.gains_in_use);
   sample.temperature_status = static_cast<std::uint8_t>(state.temperature_status);
   sample.drive_state = static_cast<std::uint8_t>(drive_state);
   sample.reading_fresh = reading_fresh ? 1 : 0;

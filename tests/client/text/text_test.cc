@@ -76,7 +76,6 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
   view.state.joint_position_rad = 0.100002;
   view.state.torque_commanded_Nm = -3.25;
   view.state.temperature_used_C = -10.0;
-  view.state.gains_in_use = 1;
   const std::string row = state_row("elbow", 12, view, 0.0);
   for (const char* part : {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0"}) {
     EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
@@ -161,14 +160,13 @@ TEST(StateNotes, AreEmptyWhenAllIsWell) {
 TEST(StateNotes, NameFaultLimitsSilenceAndASecondDaemon) {
   JointView view = healthy();
   view.state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
-  view.state.notices =
-      static_cast<std::int32_t>(Notice::kTorqueLimited) | static_cast<std::int32_t>(Notice::kFallbackGains);
+  view.state.notices = static_cast<std::int32_t>(Notice::kTorqueLimited);
   view.state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kTooOld);
   view.state.rule_count = 0;
   view.two_daemons = true;
   const std::string notes = state_notes(view, 2.5);
-  for (const char* part : {"fault 14: following error", "torque limited", "fallback gains in use", "too old",
-                           "no message for 2.5 s", "two daemons", "no table"}) {
+  for (const char* part : {"fault 14: following error", "torque limited", "too old", "no message for 2.5 s",
+                           "two daemons", "no table"}) {
     EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
   }
 }

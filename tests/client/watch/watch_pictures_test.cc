@@ -42,7 +42,6 @@ WatchedJoint moving(const std::string& name, double phase) {
   }
   state_v1& state = joint.view.state;
   state.mode = static_cast<std::int32_t>(Mode::kTracking);
-  state.gains_in_use = static_cast<std::int32_t>(GainsInUse::kPrimary);
   state.rule_count = 5;
   state.temperature_weights[2] = 0.4;
   state.temperature_weights[3] = 0.6;

@@ -50,7 +50,6 @@ Values loop_values(const JointLoopConfig& loop) {
           {"joint.temperature.max_rate_C_s", temperature.max_rate_C_s},
           {"joint.temperature.max_step_C", temperature.max_step_C},
           {"joint.temperature.max_age_s", temperature.max_age_s},
-          {"joint.temperature.recovery_s", temperature.recovery_s},
           {"joint.temperature.on_loss", temperature.loss_is_fault},
           {"joint.homing.to", static_cast<double>(loop.homing.target)},
           {"joint.homing.required", loop.homing.required},

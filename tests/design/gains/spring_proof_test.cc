@@ -34,7 +34,7 @@ TEST(SpringProof, TheBoxIsTheGearsSlopesAndEveryRulesFriction) {
   EXPECT_THROW(spring_box(table.friction, "csf-17-51", {0.089, 0.089}, {0.05, 0.3}), InputError);
 }
 
-// Any temperature taken for any other, the fallback, every slope, no damping.
+// Any temperature taken for any other, every slope, no damping.
 TEST(SpringProof, ProvesATableOfTheStudyOnItsGear) {
   const GainTable table = table_of_the_study();
   const SpringProof proof = prove_spring_box(gains_of(table), box_of(table, {0.085, 0.093}), kLoop);
@@ -70,9 +70,8 @@ TEST(SpringProof, NoDeceivingGainsAreProvedOnARigidJoint) {
   const double J_kgm2 = table.plant.inertia_kgm2;
   const double h_s = table.plant.period_s;
   for (const auto& [stiffness, damping] : {std::pair{0.9, 1.9}, {0.5, 1.5}, {0.2, 1.0}}) {
-    for (FeedbackGains* gains : {&table.primary, &table.fallback})
-      gains->set(0, GainRow(0.0, -stiffness * J_kgm2 / (h_s * h_s), -damping * J_kgm2 / h_s),
-                 gains->lyapunov(0));
+    table.primary.set(0, GainRow(0.0, -stiffness * J_kgm2 / (h_s * h_s), -damping * J_kgm2 / h_s),
+                      table.primary.lyapunov(0));
     const SpringVerdict verdict = box_of_rigid(table);
     EXPECT_FALSE(verdict.certified);
     EXPECT_NE(verdict.text.find("rigid, delay 2: UNSTABLE"), std::string::npos) << verdict.text;

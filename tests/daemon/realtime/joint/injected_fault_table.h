@@ -18,9 +18,9 @@ enum class Doing { kHolding, kMoving, kHoldingThenMoving };
 
 /// What the loop makes of it.
 enum class Reaction {
-  kFault,          ///< one of `faults` latches
-  kFallbackGains,  ///< the temperature-free gains take over
-  kNone,           ///< tolerated
+  kFault,               ///< one of `faults` latches
+  kTemperatureUnknown,  ///< temperature_status says why; the joint goes on with the last that was known
+  kNone,                ///< tolerated
 };
 
 struct InjectedFaultCase {
@@ -86,12 +86,12 @@ inline const std::vector<InjectedFaultCase>& injected_fault_table() {
        {Fault::kImplausibleReading},
        1},
       {"SensorSmallJump", {K::kSensorJump, 0, 0, 0.01}, D::kHolding, R::kFault, {Fault::kSpeedLimit}, 20},
-      {"TemperatureLost", {K::kTemperatureLost}, D::kMoving, R::kFallbackGains, {}, 1001},
+      {"TemperatureLost", {K::kTemperatureLost}, D::kMoving, R::kTemperatureUnknown, {}, 1001},
       {"TemperatureStuck", {K::kTemperatureStuck}, D::kHolding, R::kNone, {}, 2000},
       {"TemperatureDriftingFast",
        {K::kTemperatureDrifting, 0, 0, 40.0},
        D::kHolding,
-       R::kFallbackGains,
+       R::kTemperatureUnknown,
        {},
        600},
       {"TemperatureDriftingSlowly",

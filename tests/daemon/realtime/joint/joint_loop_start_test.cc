@@ -45,7 +45,7 @@ TEST_F(JointLoopStart, MakeALossOfTemperatureAFaultWhereThatIsConfigured) {
       EXPECT_EQ(fault(), Fault::kTemperatureLost);
     } else {
       EXPECT_EQ(cycles, 0);
-      EXPECT_EQ(loop_->record().state.gains_in_use, static_cast<int>(GainsInUse::kFallback));
+      EXPECT_EQ(loop_->record().state.temperature_status, static_cast<int>(TemperatureStatus::kTooOld));
     }
   }
 }

@@ -18,7 +18,6 @@ TemperatureCheckConfig config() {
   config.max_rate_C_s = 10.0;
   config.max_step_C = 6.0;
   config.max_age_s = 2.0;
-  config.recovery_s = 1.0;
   return config;
 }
 
@@ -36,15 +35,15 @@ class TemperatureCheckTest : public ::testing::Test {
   std::int64_t now_ns_ = 5 * kSecond_ns;
 };
 
-TEST_F(TemperatureCheckTest, IsUnusableBeforeTheFirstReading) {
+TEST_F(TemperatureCheckTest, KnowsNothingBeforeTheFirstReading) {
   check_.update(false, 0.0, 0, now_ns_);
   EXPECT_EQ(check_.status(), TemperatureStatus::kNeverSeen);
-  EXPECT_FALSE(check_.usable());
+  EXPECT_FALSE(check_.known());
 }
 
 TEST_F(TemperatureCheckTest, UsesTheFirstPlausibleReadingAtOnce) {
   read(20.0, 0.1);
-  EXPECT_TRUE(check_.usable());
+  EXPECT_TRUE(check_.known());
   EXPECT_EQ(check_.used_C(), 20.0);
 }
 
@@ -53,7 +52,6 @@ TEST_F(TemperatureCheckTest, RefusesNonsenseAndKeepsTheLastPlausibleValue) {
   for (const double bad : {std::nan(""), 500.0, -273.0, std::numeric_limits<double>::infinity()}) {
     read(bad, 0.1);
     EXPECT_EQ(check_.status(), TemperatureStatus::kOutOfRange);
-    EXPECT_FALSE(check_.usable());
     EXPECT_EQ(check_.used_C(), 20.0);
   }
 }
@@ -61,7 +59,7 @@ TEST_F(TemperatureCheckTest, RefusesNonsenseAndKeepsTheLastPlausibleValue) {
 TEST_F(TemperatureCheckTest, RefusesAJumpButFollowsAStepWithinTheAllowance) {
   read(20.0, 0.1);
   read(25.0, 0.1);
-  EXPECT_TRUE(check_.usable());
+  EXPECT_EQ(check_.used_C(), 25.0);
   read(45.0, 0.1);
   EXPECT_EQ(check_.status(), TemperatureStatus::kTooFast);
   EXPECT_EQ(check_.used_C(), 25.0);
@@ -85,7 +83,7 @@ TEST_F(TemperatureCheckTest, FollowsADriftWithinTheRate) {
   for (int i = 0; i < 5000; ++i) {
     temperature_C += 0.009;
     read(temperature_C, 0.001);
-    ASSERT_TRUE(check_.usable()) << "at " << temperature_C;
+    ASSERT_EQ(check_.status(), TemperatureStatus::kValid) << "at " << temperature_C;
   }
 }
 
@@ -94,15 +92,14 @@ TEST_F(TemperatureCheckTest, RefusesAReadingThatIsOldWhenItArrives) {
   EXPECT_EQ(check_.status(), TemperatureStatus::kTooOld);
 }
 
-TEST_F(TemperatureCheckTest, ReturnsOnlyAfterTheSignalWasGoodForTheRecoveryTime) {
+TEST_F(TemperatureCheckTest, KeepsTheLastValueThroughALossAndUsesTheNextThatIsPlausible) {
   read(20.0, 0.1);
   silence(3.0);
+  EXPECT_EQ(check_.status(), TemperatureStatus::kTooOld);
+  EXPECT_EQ(check_.used_C(), 20.0);
   read(21.0, 0.1);
-  EXPECT_FALSE(check_.usable());
-  for (int i = 0; i < 8; ++i) read(21.0, 0.1);
-  EXPECT_FALSE(check_.usable());
-  for (int i = 0; i < 3; ++i) read(21.0, 0.1);
-  EXPECT_TRUE(check_.usable());
+  EXPECT_EQ(check_.status(), TemperatureStatus::kValid);
+  EXPECT_EQ(check_.used_C(), 21.0);
 }
 
 }  // namespace
