@@ -47,41 +47,59 @@ std::array<double, 2> turns_of(const Segment& segment) noexcept {
 }
 
 using Found = std::optional<PathDefect>;
+using Kind = PathDefect::Kind;
 
 /// The limits, one by one, at one place of a path.
 class Judge {
  public:
   Judge(const PathLimits& limits, std::size_t knot) : limits_(limits), knot_(knot) {}
 
+  /// `number`: "time_s = ", with its value; `bound`: which it is beyond.
+  PathDefect defect(Kind kind, double time_s, const char* number, double value, double bound,
+                    const std::string& allowed) const {
+    std::ostringstream text;
+    text << "knot " << knot_;
+    if (std::isfinite(time_s)) text << " (at " << time_s << " s)";
+    text << ": " << number << beyond_text(value, bound) << ": " << allowed;
+    return {kind, text.str()};
+  }
   Found position(double position_rad, double time_s) const {
     const PositionRange& range = limits_.range;
-    if (position_rad >= range.min_rad - kAtBound && position_rad <= range.max_rad + kAtBound)
-      return std::nullopt;
-    return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad,
-                      position_rad < range.min_rad ? range.min_rad : range.max_rad};
+    if (position_rad < range.min_rad - kAtBound)
+      return defect(Kind::kPosition, time_s, "position_rad = ", position_rad, range.min_rad,
+                    "at least " + bound_text(range.min_rad) + " is allowed (joint.limits.position_min_rad)");
+    if (position_rad <= range.max_rad + kAtBound) return std::nullopt;
+    return defect(Kind::kPosition, time_s, "position_rad = ", position_rad, range.max_rad,
+                  at_most(range.max_rad, "position_max_rad"));
   }
   Found speed(double velocity_rad_s, double time_s) const {
-    return above(PathDefect::Kind::kSpeed, std::abs(velocity_rad_s), limits_.motion.velocity_rad_s, time_s);
+    return above(Kind::kSpeed, "speed in rad/s = ", std::abs(velocity_rad_s), limits_.motion.velocity_rad_s,
+                 "speed_limit_rad_s", time_s);
   }
   /// `growing`, `falling`: what the speed does beside this instant.
   Found acceleration(double acceleration_rad_s2, bool growing, bool falling, double time_s) const {
     const double size_rad_s2 = std::abs(acceleration_rad_s2);
-    if (auto found =
-            above(PathDefect::Kind::kTorque, limits_.inertia_kgm2 * size_rad_s2, limits_.torque_Nm, time_s))
-      return found;
     const MotionLimits& motion = limits_.motion;
-    if (growing)
-      if (auto found =
-              above(PathDefect::Kind::kAcceleration, size_rad_s2, motion.acceleration_rad_s2, time_s))
-        return found;
-    if (!falling) return std::nullopt;
-    return above(PathDefect::Kind::kDeceleration, size_rad_s2, motion.deceleration_rad_s2, time_s);
+    Found found =
+        above(Kind::kTorque, "torque of the inertia alone in N.m = ", limits_.inertia_kgm2 * size_rad_s2,
+              limits_.torque_Nm, "torque_limit_Nm", time_s);
+    if (!found && growing)
+      found = above(Kind::kAcceleration, "acceleration in rad/s^2 = ", size_rad_s2,
+                    motion.acceleration_rad_s2, "acceleration_rad_s2", time_s);
+    if (!found && falling)
+      found = above(Kind::kDeceleration, "deceleration in rad/s^2 = ", size_rad_s2,
+                    motion.deceleration_rad_s2, "deceleration_rad_s2", time_s);
+    return found;
   }
 
  private:
-  Found above(PathDefect::Kind kind, double value, double bound, double time_s) const {
+  static std::string at_most(double bound, const std::string& key) {
+    return "at most " + bound_text(bound) + " is allowed (joint.limits." + key + ")";
+  }
+  Found above(Kind kind, const char* number, double value, double bound, const std::string& key,
+              double time_s) const {
     if (value <= bound * kRounding) return std::nullopt;
-    return PathDefect{kind, knot_, time_s, value, bound};
+    return defect(kind, time_s, number, value, bound, at_most(bound, key));
   }
   const PathLimits& limits_;
   std::size_t knot_;
@@ -117,56 +135,30 @@ Found judge_inside(const Segment& segment, const Judge& judge) {
   return judge.speed(segment.at(fastest_s).velocity_rad_s, segment.from.time_s + fastest_s);
 }
 
-Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s) {
+Found find_number_defect(const KnotPath& path, std::size_t knot, const PathLimits& limits) {
   const PathKnot& here = path.knots[knot];
+  const Judge judge(limits, knot);
   for (const auto& [name, number] :
        {std::pair{"time_s = ", here.time_s}, std::pair{"position_rad = ", here.position_rad},
         std::pair{"velocity_rad_s = ", here.velocity_rad_s}})
     if (!std::isfinite(number))
-      return PathDefect{PathDefect::Kind::kNotFinite, knot, here.time_s, number, 0.0, name};
-  const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + period_s;
-  const bool first_is_late = knot == 0 && here.time_s > 0.0;
+      return judge.defect(Kind::kNotFinite, here.time_s, name, number, 0.0, "a finite number is allowed");
+  if (knot == 0 && here.time_s != 0.0)
+    return judge.defect(Kind::kTime, here.time_s, "time_s = ", here.time_s, 0.0,
+                        "0 is allowed, the first knot begins the path");
+  const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + limits.period_s;
   // A path is made in decimals: a knot that is a period later may be so but for its last bits.
-  if (first_is_late || here.time_s * kRounding < earliest_s)
-    return PathDefect{PathDefect::Kind::kTime, knot, here.time_s, here.time_s, earliest_s};
+  if (here.time_s * kRounding < earliest_s)
+    return judge.defect(Kind::kTime, here.time_s, "time_s = ", here.time_s, earliest_s,
+                        "at least " + bound_text(earliest_s) + " is allowed, a period after the knot before");
   if (here.time_s > kLongestPath_s)
-    return PathDefect{PathDefect::Kind::kDuration, knot, here.time_s, here.time_s, kLongestPath_s};
+    return judge.defect(Kind::kDuration, here.time_s, "time_s = ", here.time_s, kLongestPath_s,
+                        "at most " + bound_text(kLongestPath_s) + " is allowed");
   const bool end = knot == 0 || knot + 1 == path.count;
   if (end && std::abs(here.velocity_rad_s) > kAtBound)
-    return PathDefect{PathDefect::Kind::kNotAtRest, knot, here.time_s, here.velocity_rad_s, 0.0};
+    return judge.defect(Kind::kNotAtRest, here.time_s, "velocity_rad_s = ", here.velocity_rad_s, 0.0,
+                        "0 is allowed, a path begins and ends at rest");
   return std::nullopt;
-}
-
-// Of the number that is wrong, and of the key that bounds it from above, by kind of defect.
-struct Words {
-  const char* name;
-  const char* key;
-};
-constexpr std::array kWords{Words{"knot_count = ", ""},
-                            Words{"", ""},
-                            Words{"time_s = ", ""},
-                            Words{"time_s = ", ""},
-                            Words{"velocity_rad_s = ", ""},
-                            Words{"position_rad = ", "position_max_rad"},
-                            Words{"speed in rad/s = ", "speed_limit_rad_s"},
-                            Words{"acceleration in rad/s^2 = ", "acceleration_rad_s2"},
-                            Words{"deceleration in rad/s^2 = ", "deceleration_rad_s2"},
-                            Words{"torque of the inertia alone in N.m = ", "torque_limit_Nm"}};
-static_assert(kWords.size() == static_cast<std::size_t>(PathDefect::Kind::kTorque) + 1);
-
-// What would be right, and where the limit is set.
-std::string what_is_allowed(const PathDefect& defect, const Words& words) {
-  const std::string bound = bound_text(defect.bound);
-  if (defect.kind == PathDefect::Kind::kNotFinite) return "a finite number is allowed";
-  if (defect.kind == PathDefect::Kind::kNotAtRest) return "0 is allowed, a path begins and ends at rest";
-  if (defect.kind == PathDefect::Kind::kTime && defect.knot == 0)
-    return "0 is allowed, the first knot begins the path";
-  if (defect.kind == PathDefect::Kind::kTime)
-    return "at least " + bound + " is allowed, a period after the knot before";
-  if (defect.kind == PathDefect::Kind::kPosition && !(defect.value > defect.bound))
-    return "at least " + bound + " is allowed (joint.limits.position_min_rad)";
-  const std::string key = words.key;
-  return "at most " + bound + " is allowed" + (key.empty() ? "" : " (joint.limits." + key + ")");
 }
 
 }  // namespace
@@ -182,15 +174,13 @@ Reference PathReader::at(const KnotPath& path, double time_s) noexcept {
   return segment_between(from, path.knots[segment_ + 1]).at(std::max(0.0, time_s - from.time_s));
 }
 
-PathDefect wrong_count(double count) {
-  return {PathDefect::Kind::kCount, 0, 0.0, count, static_cast<double>(KnotPath::kMostKnots)};
-}
-
 std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits) {
   if (path.count < 2 || path.count > KnotPath::kMostKnots)
-    return wrong_count(static_cast<double>(path.count));
+    return PathDefect{Kind::kCount, "knot_count = " + std::to_string(static_cast<std::int64_t>(path.count)) +
+                                        ": from 2 to " + std::to_string(KnotPath::kMostKnots) +
+                                        " are allowed"};
   for (std::size_t knot = 0; knot < path.count; ++knot)
-    if (auto found = find_number_defect(path, knot, limits.period_s)) return found;
+    if (auto found = find_number_defect(path, knot, limits)) return found;
   // Positions are checked before speeds: a path in degrees is refused for its positions.
   for (std::size_t knot = 0; knot < path.count; ++knot) {
     const PathKnot& here = path.knots[knot];
@@ -208,20 +198,6 @@ std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& li
     if (auto found = judge_inside(segment, judge)) return found;
   }
   return std::nullopt;
-}
-
-std::string describe(const PathDefect& defect) {
-  std::ostringstream text;
-  if (defect.kind == PathDefect::Kind::kCount) {
-    text << "knot_count = " << defect.value << ": from 2 to " << defect.bound << " are allowed";
-    return text.str();
-  }
-  text << "knot " << defect.knot;
-  if (std::isfinite(defect.time_s)) text << " (at " << defect.time_s << " s)";
-  const Words& words = kWords[static_cast<std::size_t>(defect.kind)];
-  text << ": " << words.name << defect.number << beyond_text(defect.value, defect.bound) << ": "
-       << what_is_allowed(defect, words);
-  return text.str();
 }
 
 }  // namespace strainwave

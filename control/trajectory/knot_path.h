@@ -62,11 +62,11 @@ struct PathLimits {
   double period_s = 0.0;      ///< > 0: knots are not closer
 };
 
-/// What is wrong with a path: a knot, what it exceeds, by what, and where.
+/// What is wrong with a path.
 struct PathDefect {
   enum class Kind {
     kCount,      ///< too few or too many knots
-    kNotFinite,  ///< value is the number itself
+    kNotFinite,  ///< a number that is none
     kTime,       ///< the first is not at 0, or another not a period after the one before
     kDuration,   ///< longer than kLongestPath_s
     kNotAtRest,  ///< it begins or ends with a velocity
@@ -77,11 +77,8 @@ struct PathDefect {
     kTorque,        ///< of the inertia
   };
   Kind kind = Kind::kCount;
-  std::size_t knot = 0;  ///< from 0: at it, or between it and the next
-  double time_s = 0.0;   ///< where; of a knot its own
-  double value = 0.0;
-  double bound = 0.0;
-  const char* number = "";  ///< of kNotFinite, which of the knot's
+  /// "knot 3 (at 1.2 s): " at it, or between it and the next; the number that is wrong; what is allowed, and by which limit.
+  std::string text;
 };
 
 inline constexpr double kLongestPath_s = 3600.0;
@@ -92,8 +89,5 @@ PathDefect wrong_count(double count);
 /// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, of its speeds, then of the
 /// ways between them; nothing: it can be followed. Not real-time.
 std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits);
-
-/// "knot 3 (1.2 s): ..." with the number, and what is allowed by which limit. Not real-time.
-std::string describe(const PathDefect& defect);
 
 }  // namespace strainwave

@@ -15,10 +15,10 @@ namespace {
 
 static_assert(std::size(path_v1{}.time_s) == KnotPath::kMostKnots);
 
-// Knots beyond knot_count mean nothing.
+// Knots beyond knot_count mean nothing. A count that is none is find_defect()'s, a negative one, too.
 KnotPath knots_of(const path_v1& message) {
   KnotPath path;
-  path.count = static_cast<std::size_t>(std::max(message.knot_count, 0));
+  path.count = static_cast<std::size_t>(message.knot_count);
   for (std::size_t i = 0; i < std::min(path.count, KnotPath::kMostKnots); ++i)
     path.knots[i] = {message.time_s[i], message.position_rad[i], message.velocity_rad_s[i]};
   return path;
@@ -45,12 +45,10 @@ Verdict Admission::judge_path(std::size_t joint, const WireMessage& message) {
   loaded->joint_count = path->joint_count;
   loaded->path = knots_of(*path);
   const JointAdmission& limits = joints_[joint];
-  const auto defect = path->knot_count < 0 ? std::optional(wrong_count(path->knot_count))
-                                           : find_defect(loaded->path, limits.path);
-  if (defect) {
+  if (const auto defect = find_defect(loaded->path, limits.path)) {
     const bool no_number = defect->kind == PathDefect::Kind::kNotFinite;
     return refuse(requester, no_number ? Reason::kNotFinite : Reason::kOutOfRange,
-                  limits.name + ", " + describe(*defect));
+                  limits.name + ", " + defect->text);
   }
   Verdict verdict = pass(requester, OrderKind::kLoadPath, path->challenge);
   text << loaded->path.count << " knots in " << loaded->path.duration_s() << " s";

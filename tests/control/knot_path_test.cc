@@ -122,8 +122,7 @@ TEST(KnotPath, IsRefusedForExactlyWhatItNeedsBetweenItsKnots) {
       limits.torque_Nm = share * limits.inertia_kgm2 * std::max(needs.growing, needs.falling);
       return limits;
     };
-    ASSERT_EQ(kind_with(least(1.001)), std::nullopt)
-        << i << ": " << describe(*find_defect(path, least(1.001)));
+    ASSERT_EQ(kind_with(least(1.001)), std::nullopt) << i << ": " << find_defect(path, least(1.001))->text;
     const PathLimits little = least(0.999);
     PathLimits limits = wide();
     limits.range.min_rad = little.range.min_rad;
@@ -153,27 +152,23 @@ TEST(KnotPath, NamesKnotTimeValueAndLimit) {
   limits.motion.velocity_rad_s = 1.4;
   const auto speed = find_defect(path, limits);
   ASSERT_TRUE(speed);
-  EXPECT_EQ(speed->knot, 1u);
-  EXPECT_DOUBLE_EQ(speed->time_s, 1.5);
-  EXPECT_DOUBLE_EQ(speed->value, 1.5);
-  EXPECT_EQ(speed->bound, 1.4);
   EXPECT_EQ(
-      describe(*speed),
+      speed->text,
       "knot 1 (at 1.5 s): speed in rad/s = 1.5: at most 1.4 is allowed (joint.limits.speed_limit_rad_s)");
   limits = wide();
   limits.range.max_rad = 0.9;
-  EXPECT_EQ(describe(*find_defect(path, limits)),
+  EXPECT_EQ(find_defect(path, limits)->text,
             "knot 2 (at 2 s): position_rad = 1: at most 0.9 is allowed (joint.limits.position_max_rad)");
   limits = wide();
   limits.torque_Nm = 2.9;
-  EXPECT_EQ(describe(*find_defect(path, limits)),
+  EXPECT_EQ(find_defect(path, limits)->text,
             "knot 1 (at 1 s): torque of the inertia alone in N.m = 3: at most 2.9 is allowed "
             "(joint.limits.torque_limit_Nm)");
 }
 
 TEST(KnotPath, NamesANumberThatIsNone) {
   const KnotPath path = make_path({{0, 0, 0}, {1, 1, std::nan("")}});
-  EXPECT_EQ(describe(*find_defect(path, wide())),
+  EXPECT_EQ(find_defect(path, wide())->text,
             "knot 1 (at 1 s): velocity_rad_s = nan: a finite number is allowed");
 }
 
@@ -183,7 +178,7 @@ TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
   limits.torque_Nm = 2.9;
   limits.range.max_rad = 3.2;
   const KnotPath path = make_path({{0, 0, 0}, {1, 45, 0}});
-  EXPECT_EQ(describe(*find_defect(path, limits)),
+  EXPECT_EQ(find_defect(path, limits)->text,
             "knot 1 (at 1 s): position_rad = 45: at most 3.2 is allowed (joint.limits.position_max_rad)");
 }
 
@@ -191,7 +186,7 @@ TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
 TEST(KnotPath, MayUseItsLimitsWhole) {
   const PathLimits limits{{0.0, 3.0}, {2.0, 4.0, 8.0}, 4.0, 0.5, 1e-3};
   const KnotPath path = make_path({{0, 0, 0}, {0.5, 0.5, 2}, {1.625, 2.75, 2}, {1.875, 3, 0}});
-  EXPECT_EQ(find_defect(path, limits), std::nullopt) << describe(*find_defect(path, limits));
+  EXPECT_EQ(find_defect(path, limits), std::nullopt) << find_defect(path, limits)->text;
 }
 
 TEST(KnotPath, HasTwoTo320Knots) {
@@ -202,7 +197,7 @@ TEST(KnotPath, HasTwoTo320Knots) {
   knots.push_back({4.0, 0.5, 0.0});
   const auto many = find_defect(make_path(knots), wide());
   ASSERT_TRUE(many);
-  EXPECT_EQ(describe(*many), "knot_count = 321: from 2 to 320 are allowed");
+  EXPECT_EQ(many->text, "knot_count = 321: from 2 to 320 are allowed");
   EXPECT_EQ(find_defect(make_path({{0, 0, 0}}), wide())->kind, Kind::kCount);
   EXPECT_EQ(find_defect(KnotPath{}, wide())->kind, Kind::kCount);
 }
@@ -223,7 +218,7 @@ TEST(KnotPath, IsRefusedWhenItsNumbersAreNoPath) {
   EXPECT_EQ(kind_of({{0, 0, 0}, {3601, 0, 0}}), Kind::kDuration);
   EXPECT_EQ(kind_of({{0, 0, 0.1}, {1, 0, 0}}), Kind::kNotAtRest);
   EXPECT_EQ(kind_of({{0, 0, 0}, {1, 0, 0.1}}), Kind::kNotAtRest);
-  EXPECT_EQ(describe(*find_defect(make_path({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}), wide())),
+  EXPECT_EQ(find_defect(make_path({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}), wide())->text,
             "knot 2 (at 0.5 s): time_s = 0.5: at least 1.001 is allowed, a period after the knot before");
 }
 
