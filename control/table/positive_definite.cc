@@ -16,7 +16,6 @@ using bounded_detail::kHalfUlp;
 // Powers of two are exact only away from underflow and overflow; a matrix beyond this range is not a design
 // of ours.
 constexpr double kLargestEntry = 0x1p400;
-constexpr double kSmallestDiagonal = 0x1p-400;
 
 struct Balanced {
   ProofMatrix matrix;
@@ -25,7 +24,7 @@ struct Balanced {
 
 bool balanceable(const ProofMatrix& matrix, const ProofMatrix& error, int size) noexcept {
   for (int i = 0; i < size; ++i) {
-    if (!(matrix(i, i) >= kSmallestDiagonal)) return false;
+    if (!(matrix(i, i) >= 1.0 / kLargestEntry)) return false;
     for (int j = 0; j < size; ++j) {
       // Written so that NaN fails.
       if (!(std::abs(matrix(i, j)) <= kLargestEntry) || !(error(i, j) >= 0.0) ||

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/printable.h"
 #include "control/units.h"
 
 namespace strainwave {
 
 namespace {
-// A speed this far below one sample's deceleration is the rounding of a motion that has ended.
-constexpr double kRelativeRounding = 1e-9;
 // What thousands of samples may add up to; far below any encoder's count.
 constexpr double kPositionRounding_rad = 1e-12;
 // What a target that accelerates leaves at least of a limit, to come up with it or to brake.
@@ -121,7 +120,8 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
 Reference ReferenceShaper::step() noexcept {
   double velocity =
       stopping_ ? brake_to_rest(velocity_rad_s_) : possible_velocity_rad_s(wanted_velocity_rad_s(), {});
-  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) velocity = 0.0;
+  // So far below one sample's deceleration a speed is the rounding of a motion that has ended.
+  if (std::abs(velocity) <= kAtBound * period_s_ * limits_.deceleration_rad_s2) velocity = 0.0;
   const Reference reference = advance_to(velocity);
   if (velocity != 0.0) return reference;
   if (stopping_) target_rad_ = position_rad_;

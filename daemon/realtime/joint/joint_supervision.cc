@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "base/printable.h"
 #include "daemon/realtime/joint/joint_in_loop.h"
 
 namespace strainwave {
 
 namespace {
-
-/// A speed this close to its limit is at it.
-constexpr double kAtLimit = 1.0 - 1e-9;
 
 // The joint yields once to what pushes it: a load that does not let go, or is back as soon as the joint is held again, is a fault.
 void stop_overloaded(JointInLoop& joint, const CycleTime& time) noexcept {
@@ -38,7 +36,7 @@ void note_limits(JointInLoop& joint) noexcept {
                               temperature.used_C() > friction.temperature_max_C))
     joint.notice(Notice::kTemperatureClamped);
   const double speed_limit_rad_s = joint.config.controller.motion.velocity_rad_s;
-  if (std::abs(motion.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)
+  if (std::abs(motion.reference.velocity_rad_s) >= (1.0 - kAtBound) * speed_limit_rad_s)
     joint.notice(Notice::kSpeedLimited);
 }
 

@@ -21,9 +21,9 @@ void PathFollower::for_each_member(std::size_t travel, const Act& act) noexcept 
 }
 
 Ruling PathFollower::resume(std::size_t joint) noexcept {
-  const std::size_t travel = members_[joint].travel;
-  if (travel == kNoTravel) return begin(joint);
-  travels_[travel].clock.run();
+  const std::optional<std::size_t> travel = members_[joint].travel;
+  if (!travel) return begin(joint);
+  travels_[*travel].clock.run();
   return Reason::kAccepted;
 }
 
@@ -32,7 +32,7 @@ Ruling PathFollower::begin(std::size_t first) noexcept {
   if (path == nullptr) return Reason::kWrongMode;
   const auto takes_part = [&](std::size_t joint) {
     const LoadedPath* part = joints_[joint]->joint().path;
-    return part != nullptr && members_[joint].travel == kNoTravel && part->id == path->id &&
+    return part != nullptr && !members_[joint].travel && part->id == path->id &&
            part->joint_count == path->joint_count;
   };
   std::int32_t parts = 0;
@@ -57,9 +57,9 @@ Ruling PathFollower::begin(std::size_t first) noexcept {
 }
 
 Ruling PathFollower::pause(std::size_t joint) noexcept {
-  const std::size_t travel = members_[joint].travel;
-  if (travel == kNoTravel) return Reason::kWrongMode;
-  travels_[travel].clock.rest();
+  const std::optional<std::size_t> travel = members_[joint].travel;
+  if (!travel) return Reason::kWrongMode;
+  travels_[*travel].clock.rest();
   return Reason::kAccepted;
 }
 
@@ -153,7 +153,7 @@ RateRoom PathFollower::room(std::size_t index) noexcept {
 }
 
 void PathFollower::free(std::size_t travel) noexcept {
-  for_each_member(travel, [](JointInLoop&, Member& member) { member.travel = kNoTravel; });
+  for_each_member(travel, [](JointInLoop&, Member& member) { member.travel.reset(); });
   travels_[travel].phase = Phase::kFree;
 }
 

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,6 @@ class PathFollower {
   void advance(const CycleTime& time) noexcept;
 
  private:
-  static constexpr std::size_t kNoTravel = static_cast<std::size_t>(-1);
   enum class Phase { kFree, kBeginning, kUnderWay };
   /// One path that is travelled.
   struct Travel {
@@ -53,7 +53,7 @@ class PathFollower {
   };
   /// A joint's place on it.
   struct Member {
-    std::size_t travel = kNoTravel;
+    std::optional<std::size_t> travel;  ///< nothing: it is on none
     PathReader reader;
     double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
   };
