@@ -147,9 +147,10 @@ void JointController::advance_plan(const JointMeasurement& measurement) noexcept
   }
   for (int period = 0; period < led_periods(config_, measurement); ++period) {
     plan_.advance(joint());
-    const double load_Nm = plan_.take_load_Nm();
-    friction_.set_load(friction_.load_Nm() + load_Nm);
-    hold_torque_Nm_ += load_Nm;
+    if (const double load_Nm = plan_.take_load_Nm(); load_Nm != 0.0) {
+      friction_.set_load(friction_.load_Nm() + load_Nm);
+      hold_torque_Nm_ += load_Nm;
+    }
   }
 }
 
@@ -159,6 +160,7 @@ void JointController::choose_phase() noexcept {
     return;
   }
   if (config_.drive_closes_loop()) return;
+  friction_.end_motion();
   const double off = off_rad(plan_, reading_);
   if (plan_.correct(off, reading_.position_rad(), reading_.still_periods())) {
     law_.reference_jumps();
@@ -225,7 +227,7 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   return output;
 }
 
-// From an order's own motion, at a torque that is not limited and a reading that is fresh.
+// From an order's own motion, at a torque that is not limited and a reading that is fresh; a load also from a motor that stands off its place.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
   if (phase_ != MotionPhase::kTracking || output.saturated || plan_.planner().exhausted() ||
       !measurement.has_position || measurement.elapsed_periods > 1)
@@ -236,9 +238,10 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
   if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
   const double learns_for_s = config_.period_s * learning_share(config_);
-  if (!moves)
+  const bool stands = reading_.still_periods() * config_.period_s >= RestCorrections::kStands_s;
+  if (!moves && stands)
     friction_.learn_load(output.feedback_torque_Nm, learns_for_s);
-  else if (velocity_rad_s != 0.0 && !plan_.corrections().begun())
+  else if (moves && velocity_rad_s != 0.0 && !plan_.corrections().begun())
     friction_.learn(output.feedback_torque_Nm, velocity_rad_s, learns_for_s);
   else
     return false;

@@ -14,6 +14,8 @@ constexpr double kFrictionRate_1_s = 35.0;
 constexpr double kLoadRate_1_s = 5.0;
 // Feedback counts up to this share of the friction: a collision must not become friction within a few periods.
 constexpr double kCounted = 0.5;
+// Memory of the mean. 0.3 and 1 s are as good (`strainwave-sim flexible --wrong`: joints with a wrong load that stand off their place).
+constexpr double kMean_s = 0.5;
 
 }  // namespace
 
@@ -30,7 +32,7 @@ void FrictionLearning::weigh(const TemperatureWeights& weights) noexcept {
 void FrictionLearning::set(const LearnedFriction& learned) noexcept {
   for (std::size_t i = 0; i < learned.scale.size(); ++i)
     learned_.scale[i] = std::clamp(learned.scale[i], kLeastScale, kMostScale);
-  learned_.load_Nm = learned.load_Nm;
+  set_load(learned.load_Nm);
   blend();
 }
 
@@ -76,6 +78,20 @@ void FrictionLearning::learn(double feedback_Nm, double motor_velocity_rad_s, do
           learned_.scale[i] + along_Nm * weights_.weight[i] / rule_friction_Nm(i, stribeck, speed_rad_s),
           kLeastScale, kMostScale);
   blend();
+  add_to_mean(elapsed_s);
+}
+
+void FrictionLearning::add_to_mean(double elapsed_s) noexcept {
+  weight_ += (1.0 - weight_) * elapsed_s / kMean_s;
+  const double share = elapsed_s / kMean_s / weight_;
+  for (std::size_t i = 0; i < mean_.scale.size(); ++i)
+    mean_.scale[i] += share * (learned_.scale[i] - mean_.scale[i]);
+  mean_.load_Nm += share * (learned_.load_Nm - mean_.load_Nm);
+}
+
+void FrictionLearning::end_motion() noexcept {
+  if (weight_ == 0.0 || frozen_) return;
+  set(mean_);
 }
 
 }  // namespace strainwave

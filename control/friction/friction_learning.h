@@ -8,6 +8,9 @@
 // Together both add (rate + load_rate) u per second to the feed-forward of a motion in one direction: in the loop, learning multiplies the
 // feedback law by (1 + (rate + load_rate) / s). A scale belongs to its temperature rule: what a cold morning has shown is
 // there on the next cold morning. Source: Friedland and Park (1992), adaptive friction compensation, with the table as the prior.
+//
+// Learning is so fast that the end of a motion shows in it more than the motion: with a wrong inertia, braking is taken for friction and load.
+// What stays of a motion is therefore the mean of what was learned in its last half second. Source: Polyak and Juditsky (1992), averaging.
 #pragma once
 
 #include <algorithm>
@@ -33,19 +36,26 @@ class FrictionLearning {
   /// A period of motion in which `feedback_Nm` was added at the planned `motor_velocity_rad_s` != 0.
   void learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept;
 
+  /// The motion is over: its mean stays. Nothing happens where nothing was learned since the last call.
+  void end_motion() noexcept;
+
   /// A period in which a joint at rest is held off its place by `feedback_Nm`.
   void learn_load(double feedback_Nm, double elapsed_s) noexcept;
 
   const LearnedFriction& learned() const noexcept { return learned_; }
   /// Values outside of the bounds are brought to them.
   void set(const LearnedFriction& learned) noexcept;
-  void set_load(double load_Nm) noexcept { learned_.load_Nm = load_Nm; }
+  void set_load(double load_Nm) noexcept {
+    learned_.load_Nm = load_Nm;
+    weight_ = 0.0;
+  }
   /// While frozen nothing is learned.
   void freeze(bool frozen) noexcept { frozen_ = frozen; }
   bool frozen() const noexcept { return frozen_; }
 
  private:
   void blend() noexcept;
+  void add_to_mean(double elapsed_s) noexcept;
   double rule_friction_Nm(std::size_t rule, double stribeck, double speed_rad_s) const noexcept;
 
   FuzzyFriction table_;
@@ -53,6 +63,8 @@ class FrictionLearning {
   double reciprocal_squares_ = 1.0;  ///< 1 / sum w_j^2
   FrictionParameters friction_;
   LearnedFriction learned_;
+  LearnedFriction mean_;  ///< of this motion
+  double weight_ = 0.0;   ///< of what mean_ is of, in [0, 1); 0: of nothing
   bool frozen_ = false;
 };
 

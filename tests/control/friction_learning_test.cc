@@ -82,6 +82,28 @@ TEST(FrictionLearning, LearnsNothingWhileItIsFrozen) {
   EXPECT_NE(learning.learned(), before);
 }
 
+// Braking with a wrong inertia: the last tenth of a motion shows torques that are no friction.
+TEST(FrictionLearning, KeepsOfAMotionItsMeanAndNotItsEnd) {
+  FrictionLearning learning = two_rules();
+  const auto feed_back = [&](double feedback_Nm, int periods) {
+    for (int k = 0; k < periods; ++k) learning.learn(feedback_Nm, kVelocity_rad_s, kPeriod_s);
+  };
+  feed_back(0.5, 100);
+  const LearnedFriction cruise = learning.learned();
+  feed_back(0.0, 800);
+  feed_back(-2.0, 100);
+  const LearnedFriction braked = learning.learned();
+  learning.end_motion();
+  const auto off = [&](const LearnedFriction& from) { return std::abs(from.scale[0] - cruise.scale[0]); };
+  EXPECT_LT(off(learning.learned()), 0.25 * off(braked));
+  EXPECT_LT(std::abs(learning.load_Nm() - cruise.load_Nm), 0.25 * std::abs(braked.load_Nm - cruise.load_Nm));
+  const LearnedFriction kept = learning.learned();
+  learning.learn_load(0.1, kPeriod_s);
+  learning.end_motion();  // nothing has moved since
+  EXPECT_EQ(learning.learned().scale, kept.scale);
+  EXPECT_GT(learning.load_Nm(), kept.load_Nm);
+}
+
 TEST(FrictionLearning, LeavesTheRuleOfAnotherTemperatureAsItIs) {
   FrictionLearning learning = two_rules();
   TemperatureWeights cold;
