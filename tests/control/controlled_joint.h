@@ -39,7 +39,8 @@ class ControlledJoint {
   JointStep step() {
     plant_.set_ambient_temperature(temperature_C);
     JointMeasurement measurement;
-    measurement.joint_position_rad = plant_.measured_position_rad();
+    measurement.joint_position_rad =
+        plant_.config().encoder.measure_rad(plant_.state().position_rad + noise_rad);
     measurement.temperature_C = temperature_C;
     measurement.temperature_valid = true;
     const JointStep result = controller_.step(measurement);
@@ -49,18 +50,13 @@ class ControlledJoint {
   void run(double duration_s) {
     for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
   }
-  /// A joint of another kind goes on where the old one stands.
-  void free() {
-    JointPlantConfig plant = realistic_plant();
-    plant.initial_position_rad = position_rad();
-    plant_ = JointPlant(plant);
-  }
   JointController& controller() { return controller_; }
   /// The link's, where there is a spring.
   double position_rad() const { return plant_.link_state().position_rad; }
 
   double temperature_C;
   double load_torque_Nm = 0.0;
+  double noise_rad = 0.0;  ///< of the next readings
 
  private:
   JointPlant plant_;

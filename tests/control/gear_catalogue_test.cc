@@ -42,27 +42,6 @@ TEST(GearCatalogue, HasTheFiveSizesInBothRatiosByName) {
   EXPECT_EQ(find_gear("csf-17-49"), nullptr);
 }
 
-TEST(GearCatalogue, GrowsWithSizeInEveryColumnButSpeedAndAccuracy) {
-  const auto file = read_file();
-  for (const double ratio : {50.0, 100.0}) {
-    Cells smaller;
-    for (const auto& [key, cells] : file) {
-      if (key.second != ratio) continue;
-      for (const auto& [column, value] : cells) {
-        if (!smaller.contains(column) || column == "ratio") continue;
-        if (column == "input_speed_limit_rpm") {
-          EXPECT_LT(value, smaller.at(column)) << column << ", size " << key.first;
-        } else if (column == "accuracy_rad" || column == "lost_motion_rad") {
-          EXPECT_LE(value, smaller.at(column)) << column << ", size " << key.first;
-        } else {
-          EXPECT_GT(value, smaller.at(column)) << column << ", size " << key.first;
-        }
-      }
-      for (const auto& [column, value] : cells) smaller[column] = value;
-    }
-  }
-}
-
 TEST(GearCatalogue, OrdersTorquesAndStiffnessWithinAGear) {
   for (const auto& [key, cells] : read_file()) {
     SCOPED_TRACE("size " + std::to_string(key.first) + ", ratio " + std::to_string(key.second));

@@ -71,56 +71,28 @@ TEST(JointController, BringsALoadStepBackToWithinAMilliradian) {
   }
 }
 
-TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
-  JointPlantConfig blocked = realistic_plant();
-  blocked.joint.friction.asymptote.static_Nm = 100.0;
-  blocked.joint.friction.asymptote.coulomb_Nm = 100.0;
-  ControlledJoint loop(blocked);
-  loop.controller().set_target(0.5);
-  for (int k = 0; k < 2000; ++k) {
-    const JointStep step = loop.step();
-    ASSERT_TRUE(std::isfinite(step.output.torque_Nm));
-    ASSERT_LE(std::abs(step.output.torque_Nm), kReferencePeakTorque_Nm);
-  }
-  EXPECT_EQ(loop.position_rad(), 0.0);
-  loop.free();
-  loop.run(3.0);
-  EXPECT_LE(std::abs(loop.position_rad() - 0.5), 1e-3);
-}
-
 // Whatever the encoder, and though its reading flickers: the last counts of a place to which the joint was not ordered are no reason to
 // move it.
 TEST(JointController, LeavesAJointAloneThatStandsUntilItIsOrderedOn) {
   for (const double counts : {65536.0, 131072.0, 320000.0})
     for (const double start_counts : {-0.4, 0.1, 0.49}) {
-      double noise_counts = 0.3;
       const double count_rad = 2.0 * std::numbers::pi / counts;
       JointPlantConfig coarse = realistic_plant();
       coarse.encoder.counts_per_joint_revolution = counts;
       coarse.initial_position_rad = start_counts * count_rad;
-      JointPlant plant(coarse);
-      plant.set_ambient_temperature(20.0);
       JointControllerConfig config = realistic_config();
       config.encoder_resolution_rad = count_rad;
-      JointController controller(config);
-      controller.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
-      controller.start(plant.measured_position_rad());
+      ControlledJoint loop(coarse, config);
+      loop.noise_rad = 0.3 * count_rad;
       const auto step = [&] {
-        JointMeasurement measurement;
-        noise_counts = -noise_counts;
-        measurement.joint_position_rad =
-            coarse.encoder.measure_rad(plant.state().position_rad + noise_counts * count_rad);
-        measurement.temperature_C = 20.0;
-        measurement.temperature_valid = true;
-        const double torque_Nm = controller.step(measurement).output.torque_Nm;
-        plant.step(torque_Nm, 0.0);
-        return torque_Nm;
+        loop.noise_rad = -loop.noise_rad;
+        return loop.step().output.torque_Nm;
       };
       for (int k = 0; k < 1000; ++k)
         ASSERT_EQ(step(), 0.0) << counts << " counts, " << start_counts << ", " << k;
-      controller.set_target(0.01);
+      loop.controller().set_target(0.01);
       for (int k = 0; k < 2000; ++k) step();
-      EXPECT_NEAR(plant.state().position_rad, 0.01, 2.5 * count_rad) << counts << " counts, " << start_counts;
+      EXPECT_NEAR(loop.position_rad(), 0.01, 2.5 * count_rad) << counts << " counts, " << start_counts;
     }
 }
 

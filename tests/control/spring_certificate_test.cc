@@ -141,16 +141,5 @@ TEST(SpringCertificate, TheDelaysTableHasLittleBesideItsBoxWhereAStiffSpringIsNo
   }
 }
 
-// What lies between the corners is lost where they are far apart, and is found when the box is cut: the errors fall by four.
-TEST(SpringCertificate, InHalfOfABoxTheInterpolationIsFourTimesAsGood) {
-  SpringBox box{{0.089, 0.089}, {0.1, 0.1}, {8000.0, 12000.0}, {0.0, 0.0}, {0.0, 0.0}};
-  const SpringCorners whole = spring_corners(box, kLoop.period_s);
-  EXPECT_EQ(whole.corners.size(), 2U);
-  EXPECT_EQ(whole.widest, 0U);
-  box.stiffness_Nm_rad = {10000.0, 12000.0};
-  const SpringCorners half = spring_corners(box, kLoop.period_s);
-  EXPECT_NEAR(whole.interpolation(3, 2) / half.interpolation(3, 2), 4.0, 0.2);
-}
-
 }  // namespace
 }  // namespace strainwave
