@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "drivers/gpio/gpio_actuator.h"
 #include "tests/support/joint_bench.h"
@@ -80,16 +83,19 @@ class Plant {
   double changing_s_ = 0.0;
 };
 
+/// The period that is over goes by when its end is read.
 class Counts final : public CountSource {
  public:
-  explicit Counts(const Plant& plant) : plant_(plant) {}
+  Counts(const Plant& plant, std::function<void()> advance) : plant_(plant), advance_(std::move(advance)) {}
   Sample read(std::int64_t /*now_ns*/) noexcept override {
+    advance_();
     return {static_cast<std::int64_t>(std::floor(plant_.position_rad / kCount_rad)), State::kFresh};
   }
   void clear_fault() noexcept override {}
 
  private:
   const Plant& plant_;
+  std::function<void()> advance_;
 };
 
 class FallingLoad : public ::testing::Test {
@@ -104,7 +110,7 @@ class FallingLoad : public ::testing::Test {
     auto lines = std::make_unique<Lines>();
     lines_ = lines.get();
     parts.lines = std::move(lines);
-    parts.counts = std::make_unique<Counts>(plant_);
+    parts.counts = std::make_unique<Counts>(plant_, [this] { advance(); });
     parts.pwm =
         std::make_unique<PwmChannel>(PwmConfig{folder_.path() / "pwmchip0", 0, 20000.0, false}, 0.0, "pwm");
     TorqueOutputConfig torque;
@@ -116,17 +122,12 @@ class FallingLoad : public ::testing::Test {
     loop.controller.encoder_resolution_rad = kCount_rad;
     loop.controller.delay_periods = reckoned_periods_;
     loop.initial_load_Nm = initial_load_Nm;
-    joint_ = std::make_unique<JointLoop>(
-        0, loop, std::make_unique<GpioActuator>(std::move(parts), motion, torque, sequence), *replies_,
-        *events_);
-    joint_->table_slot(0) = {demo_table(), 1};
+    bench_.emplace(loop, std::make_unique<GpioActuator>(std::move(parts), motion, torque, sequence));
+    bench_->joint(0).table_slot(0) = {demo_table(), 1};
     EXPECT_EQ(order(OrderKind::kUseTable), Reason::kAccepted);
   }
 
-  void step() {
-    ++time_.cycle;
-    time_.now_ns += 1'000'000;
-    joint_->step(time_);
+  void advance() {
     const double ordered_Nm = motor_Nm();
     plant_.step(delay_periods_ == 0 ? ordered_Nm : ordered_before_Nm_, lines_->out(LineRole::kBrakeRelease));
     ordered_before_Nm_ = ordered_Nm;
@@ -143,18 +144,8 @@ class FallingLoad : public ::testing::Test {
     EXPECT_TRUE(plant_.open);
     return plant_.farthest_rad;
   }
-  void run(double duration_s) {
-    for (int i = 0; i < std::lround(duration_s / kPeriod_s); ++i) step();
-  }
-  Reason order(OrderKind kind, double position_rad = 0.0) {
-    EXPECT_TRUE(joint_->orders().push(Order{++order_id_, kind, 0, position_rad, 0.0, {}}));
-    step();
-    Reply reply;
-    while (replies_->pop(reply))
-      if (reply.id == order_id_) return reply.reason;
-    ADD_FAILURE() << "no answer";
-    return Reason::kUnknownAction;
-  }
+  void run(double duration_s) { bench_->run(duration_s); }
+  Reason order(OrderKind kind) { return bench_->order(0, kind); }
   double motor_Nm() const {
     std::ifstream file(folder_.path() / "pwmchip0/pwm0/duty_cycle");
     double duty_ns = 0.0;
@@ -162,7 +153,7 @@ class FallingLoad : public ::testing::Test {
     const double amount_Nm = lines_->out(LineRole::kEnable) ? duty_ns / 50000.0 * kFullScale_Nm : 0.0;
     return lines_->out(LineRole::kDirection) ? -amount_Nm : amount_Nm;
   }
-  Mode mode() const { return static_cast<Mode>(joint_->record().state.mode); }
+  Mode mode() const { return bench_->mode(0); }
 
   TemporaryFolder folder_;
   int delay_periods_ = 0;     ///< of the plant
@@ -170,11 +161,7 @@ class FallingLoad : public ::testing::Test {
   double ordered_before_Nm_ = 0.0;
   Plant plant_;
   Lines* lines_ = nullptr;
-  std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
-  std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
-  std::unique_ptr<JointLoop> joint_;
-  CycleTime time_{.now_ns = 1'000'000'000};
-  std::int64_t order_id_ = 0;
+  std::optional<JointBench> bench_;
 };
 
 TEST_F(FallingLoad, EnablingHoldsItWhileTheBrakeOpensAndAfterwards) {
@@ -210,28 +197,60 @@ TEST_F(FallingLoad, ADelayCostsASagOnlyWhereTheControlLawDoesNotReckonWithIt) {
   }
 }
 
-TEST_F(FallingLoad, TheBrakeOpensOnlyWhileTheLoopHoldsTheJoint) {
+TEST_F(FallingLoad, TheBrakeOpensUnderTheTorqueThatHoldsTheLoadFromTheFirstPeriodOn) {
+  make(-kLoad_Nm);
   ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
   int held_periods = 0;
-  while (!lines_->out(LineRole::kBrakeRelease) && held_periods < 1000) {
-    held_periods += mode() == Mode::kReleasing ? 1 : 0;
-    step();
+  for (; !lines_->out(LineRole::kBrakeRelease) && held_periods < 1000; bench_->step()) {
+    if (mode() != Mode::kReleasing) continue;
+    ++held_periods;
+    EXPECT_NEAR(motor_Nm(), -kLoad_Nm, 0.5);
   }
   EXPECT_GE(held_periods, 10);
+}
+
+TEST_F(FallingLoad, IsKnownTheNextTimeFromWhatWasHeldBefore) {
+  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  run(3.0);
+  ASSERT_EQ(order(OrderKind::kDisable), Reason::kAccepted);
+  run(1.0);
+  ASSERT_EQ(mode(), Mode::kOff);
+  const double before_rad = plant_.position_rad;
+  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  run(1.0);
+  ASSERT_TRUE(plant_.open);
+  EXPECT_NEAR(plant_.position_rad, before_rad, 0.002);
+}
+
+TEST_F(FallingLoad, ATableThatCannotHoldItIsRefusedWhileItIsHeld) {
+  make(-kLoad_Nm);
+  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  run(1.0);
+  ASSERT_EQ(mode(), Mode::kHolding);
+  const Order swap{.kind = OrderKind::kUseTable, .table_slot = 1};
+  bench_->joint(0).table_slot(1) = {demo_table(), 2};
+  bench_->joint(0).table_slot(1).table.torque_limit_Nm = 8.0;
+  EXPECT_EQ(bench_->order(0, swap), Reason::kOutOfRange);
+  EXPECT_EQ(bench_->last_reply().value, 8.0);
+  EXPECT_NEAR(bench_->last_reply().limit, -kLoad_Nm, 0.5);
+  run(1.0);
+  EXPECT_EQ(mode(), Mode::kHolding);
+  bench_->joint(0).table_slot(1).table.torque_limit_Nm = 30.0;
+  EXPECT_EQ(bench_->order(0, swap), Reason::kAccepted);
 }
 
 TEST_F(FallingLoad, NoMotionIsTakenBeforeTheBrakeIsOpen) {
   ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
   int refusals = 0;
   while (!plant_.open) {
-    EXPECT_EQ(order(OrderKind::kSetpoint, 0.5), Reason::kWrongMode);
+    EXPECT_EQ(bench_->move(0, 0.5), Reason::kWrongMode);
     ++refusals;
     ASSERT_LT(refusals, 1000);
   }
   EXPECT_GT(refusals, 50);
   EXPECT_LT(plant_.farthest_rad, kSag_rad);
   run(0.1);
-  EXPECT_EQ(order(OrderKind::kSetpoint, 0.5), Reason::kAccepted);
+  EXPECT_EQ(bench_->move(0, 0.5), Reason::kAccepted);
   run(3.0);
   RecordProperty("arrived_urad", static_cast<int>(1e6 * (plant_.position_rad - 0.5)));
   EXPECT_NEAR(plant_.position_rad, 0.5, kHeld_rad);
@@ -242,7 +261,7 @@ TEST_F(FallingLoad, AFaultShutsTheBrakeInThePeriodInWhichItComes) {
   run(1.0);
   const double before_rad = plant_.position_rad;
   lines_->inputs = bit(LineRole::kEmergencyStop);
-  step();
+  bench_->step();
   EXPECT_EQ(mode(), Mode::kFaulted);
   EXPECT_FALSE(lines_->out(LineRole::kBrakeRelease));
   EXPECT_FALSE(lines_->out(LineRole::kEnable));

@@ -57,6 +57,33 @@ TEST_F(StalledLoop, GoesOnAtTheSpeedThatItWasOrderedThroughSkippedPeriods) {
   EXPECT_NEAR(bench_->state(0).setpoint_position_rad - setpoint_rad, 4 * 0.002, 1e-9);
 }
 
+// More than kMaxElapsedPeriods: the stream is behind it, but not over.
+TEST_F(StalledLoop, GoesOnWithAStreamAtItsTimes) {
+  constexpr int kAway = kMaxElapsedPeriods + 20;
+  JointBench bench({demo_joint()}, kAnything);
+  bench.bring_to_hold(0);
+  for (int k = 0; k < 1000; ++k) {
+    if (k % 10 == 0) {
+      ASSERT_TRUE(bench.joint(0).orders().push(Order{.kind = OrderKind::kSetpoint,
+                                                     .position_rad = 0.5e-3 * (k + 30),
+                                                     .valid_for_s = 1.0,
+                                                     .stream_id = 7,
+                                                     .begins_stream = k == 0,
+                                                     .velocity_rad_s = 0.5,
+                                                     .derivatives = 1,
+                                                     .at_cycle = bench.cycle() + 30}));
+    }
+    if (k == 400) {
+      bench.stall(kAway);
+      k += kAway;
+    }
+    bench.step();
+  }
+  EXPECT_EQ(bench.fault(0), Fault::kNone);
+  EXPECT_EQ(bench.mode(0), Mode::kTracking);
+  EXPECT_NEAR(bench.state(0).joint_position_rad, 0.5e-3 * 999, 5e-3);
+}
+
 TEST_F(StalledLoop, IsAFaultAfterThreeSeconds) {
   move({});
   const double position_rad = truth().position_rad;

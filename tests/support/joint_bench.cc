@@ -57,20 +57,32 @@ const GainTable& demo_table() {
   return table;
 }
 
-JointBench::JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns)
-    : period_ns_(std::llround(joints.at(0).loop.controller.period_s * 1e9)),
-      overruns_(overruns, joints.at(0).loop.controller.period_s) {
+JointBench::JointBench(double period_s, const OverrunLimits& overruns)
+    : period_ns_(std::llround(period_s * 1e9)), overruns_(overruns, period_s) {
   time_.now_ns = 1'000'000'000;
   burned_ns = 0;
+}
+
+JointBench::JointBench(const JointLoopConfig& loop, std::unique_ptr<Actuator> drive)
+    : JointBench(loop.controller.period_s, OverrunLimits{}) {
+  add(loop, std::move(drive));
+}
+
+JointBench::JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns)
+    : JointBench(joints.at(0).loop.controller.period_s, overruns) {
   for (const BenchJoint& joint : joints) {
     auto watched = std::make_unique<WatchedActuator>(std::make_unique<SimulatedActuator>(joint.drive));
     drives_.push_back(watched.get());
     auto faulty = std::make_unique<FaultyActuator>(
         std::move(watched), FaultyActuatorConfig{joint.loop.controller.period_s, joint.faults, &burn, 1});
-    joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
-                                                  std::move(faulty), *replies_, *events_));
+    add(joint.loop, std::move(faulty));
   }
-  paths_ = std::make_unique<PathFollower>(joints_, joints.at(0).loop.controller.period_s);
+}
+
+void JointBench::add(const JointLoopConfig& loop, std::unique_ptr<Actuator> drive) {
+  joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), loop,
+                                                std::move(drive), *replies_, *events_));
+  paths_ = std::make_unique<PathFollower>(joints_, loop.controller.period_s);
 }
 
 void JointBench::step() {

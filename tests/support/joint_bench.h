@@ -36,13 +36,7 @@ const GainTable& demo_table();
 class WatchedActuator final : public Actuator {
  public:
   explicit WatchedActuator(std::unique_ptr<SimulatedActuator> actuator) : actuator_(std::move(actuator)) {}
-  ActuatorReading read(std::int64_t now_ns) noexcept override {
-    ActuatorReading reading = actuator_->read(now_ns);
-    if (missing_ > 0 && missing_-- > 0) reading.has_position = false;
-    return reading;
-  }
-  /// The next `count` readings come without a position, as from a bus that lost a frame.
-  void miss_readings(int count) noexcept { missing_ = count; }
+  ActuatorReading read(std::int64_t now_ns) noexcept override { return actuator_->read(now_ns); }
   void write(const ActuatorCommand& command) noexcept override {
     command_ = command;
     actuator_->write(command);
@@ -62,12 +56,13 @@ class WatchedActuator final : public Actuator {
   std::unique_ptr<SimulatedActuator> actuator_;
   ActuatorCommand command_;
   int stops_ = 0;
-  int missing_ = 0;
 };
 
 class JointBench {
  public:
   explicit JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns = {});
+  /// One joint on a drive of the test's own.
+  JointBench(const JointLoopConfig& loop, std::unique_ptr<Actuator> drive);
 
   /// One period of every joint. A drive that burns more than a period makes the next ones be skipped, as in
   /// the daemon.
@@ -115,6 +110,9 @@ class JointBench {
   std::int64_t skipped_periods() const { return skipped_periods_; }
 
  private:
+  JointBench(double period_s, const OverrunLimits& overruns);
+  void add(const JointLoopConfig& loop, std::unique_ptr<Actuator> drive);
+
   std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
   Reply last_reply_;
   std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();

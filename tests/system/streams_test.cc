@@ -216,7 +216,7 @@ TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes)
                 1e3 * one.rms_error_rad, 1e3 * one.largest_error_rad);
   };
   print("200 Hz with velocity", smooth);
-  // Of every rate with and without velocities, JointLoopStreams; here, what the way to the loop could spoil.
+  // Of every rate with and without velocities, StreamedSines; here, what the way to the loop could spoil.
   for (const auto& [every, derivatives] : {std::pair{50, 0}, std::pair{2, 0}}) {
     const Ride streamed = ride(every, derivatives, false);
     print(("every " + std::to_string(every) + " ms, derivatives " + std::to_string(derivatives)).c_str(),

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/allocation_trap.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -13,14 +13,16 @@ TEST(JointLoopAllocations, AreNoneInAMinuteOfCommandsTableSwapsAndFaults) {
   if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
   std::vector<BenchJoint> joints(4, demo_joint());
   joints[0].loop.group = joints[1].loop.group = 0;
+  joints[3] = flexible_joint();
   JointBench bench(joints);
   std::vector<std::unique_ptr<FlightRecorder>> recorders;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     recorders.push_back(std::make_unique<FlightRecorder>(1000, 100));
     bench.joint(i).record_into(*recorders.back());
-    bench.bring_to_hold(i);
+    const GainTable& table = i == 3 ? flexible_table() : demo_table();
+    bench.bring_to_hold(i, table);
     for (std::size_t slot = 1; slot < JointLoop::kTableSlots; ++slot)
-      bench.joint(i).table_slot(slot) = {demo_table(), static_cast<std::int64_t>(slot + 1)};
+      bench.joint(i).table_slot(slot) = {table, static_cast<std::int64_t>(slot + 1)};
   }
   std::int64_t faults = 0;
   std::int64_t swaps = 0;

@@ -138,37 +138,10 @@ TEST(InjectedFaultTable, HasEveryKind) {
   }
 }
 
-TEST(InjectedFaults, ComeFromTheScheduleAtTheirTime) {
-  BenchJoint joint = demo_joint();
-  joint.faults = {{InjectedFault::kPowerLost, 0.7, 0.1, 0.0}};
-  JointBench bench({joint});
-  bench.bring_to_hold(0);
-  ASSERT_GE(bench.step_until([&] { return bench.fault(0) != Fault::kNone; }, 2000), 0);
-  EXPECT_EQ(bench.cycle(), 701);
-  EXPECT_EQ(bench.fault(0), Fault::kPowerLost);
-}
-
 TEST(InjectedFaults, AreRefusedByAnotherDrive) {
   const BenchJoint joint = demo_joint();
-  ReplyQueue replies;
-  EventQueue events;
-  JointLoop loop(0, joint.loop, std::make_unique<SimulatedActuator>(joint.drive), replies, events);
-  ASSERT_TRUE(loop.orders().push({1, OrderKind::kInject, 0, 0.0, 0.0, {InjectedFault::kPowerLost}}));
-  loop.step({1'000'000, 1});
-  Reply reply;
-  ASSERT_TRUE(replies.pop(reply));
-  EXPECT_EQ(reply.reason, Reason::kNotSimulated);
-}
-
-TEST(InjectedFaults, OfTooFewOverrunsAreOnlyCounted) {
-  JointBench bench({demo_joint()});
-  bench.bring_to_hold(0);
-  for (int i = 0; i < 20; ++i) {
-    bench.inject(0, {InjectedFault::kOverrun, 0.0, 0.020, 0.0025});  // 7 late cycles, then it is on time
-    bench.run(0.2);
-  }
-  EXPECT_EQ(bench.fault(0), Fault::kNone) << "14 of some 220 periods";
-  EXPECT_GT(bench.skipped_periods(), 100);
+  JointBench bench(joint.loop, std::make_unique<SimulatedActuator>(joint.drive));
+  EXPECT_EQ(bench.inject(0, {InjectedFault::kPowerLost}), Reason::kNotSimulated);
 }
 
 }  // namespace

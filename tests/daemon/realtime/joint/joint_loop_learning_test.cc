@@ -61,13 +61,15 @@ TEST_F(JointLoopLearning, SaysWhereFrictionDiffersFromTheTable) {
   }
 }
 
-TEST_F(JointLoopLearning, IsForgottenByAResetWithoutATorqueStep) {
+TEST_F(JointLoopLearning, IsForgottenByAResetWithoutATorqueStepAndStaysFrozen) {
   hold_with(1.0);
+  ASSERT_EQ(bench_.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);
   const double before_Nm = state().torque_commanded_Nm;
   EXPECT_EQ(bench_.order(0, OrderKind::kResetLearning), Reason::kAccepted);
   EXPECT_NEAR(state().torque_commanded_Nm, before_Nm, 0.01 * demo_table().torque_limit_Nm);
   EXPECT_EQ(state().friction_factor, 1.0);
   EXPECT_EQ(state().friction_age_s, -1.0);
+  EXPECT_EQ(state().friction_frozen, 1);
   EXPECT_TRUE(std::isnan(state().friction_learned_C));
   EXPECT_FALSE(bench_.has_notice(0, Notice::kFrictionDiffers));
 }
@@ -89,13 +91,6 @@ TEST_F(JointLoopLearning, IsFrozenAndResumedByOrdersWhateverTheJointDoes) {
   EXPECT_EQ(state().friction_scales[0], 0.25);
   EXPECT_EQ(bench_.order(0, OrderKind::kResumeLearning), Reason::kAccepted);
   EXPECT_EQ(state().friction_frozen, 0);
-}
-
-TEST_F(JointLoopLearning, StaysFrozenThroughAReset) {
-  hold_with(0.25);
-  ASSERT_EQ(bench_.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);
-  ASSERT_EQ(bench_.order(0, OrderKind::kResetLearning), Reason::kAccepted);
-  EXPECT_EQ(state().friction_frozen, 1);
 }
 
 TEST_F(JointLoopLearning, BelongsToTheFrictionRulesOfTheTable) {

@@ -17,27 +17,6 @@ class JointLoopOrders : public ::testing::Test {
   JointBench bench_;
 };
 
-TEST_F(JointLoopOrders, MoveNoFasterThanTheOrderSaysAndOnlyThatOrder) {
-  bench_.bring_to_hold(0);
-  Order order;
-  order.kind = OrderKind::kSetpoint;
-  order.position_rad = 0.5;
-  order.speed_limit_rad_s = 0.5;
-  ASSERT_EQ(bench_.order(0, order), Reason::kAccepted);
-  double fastest_rad_s = 0.0;
-  const auto arrived = [&](double target_rad) {
-    return [&, target_rad] {
-      fastest_rad_s = std::max(fastest_rad_s, std::abs(state().setpoint_velocity_rad_s));
-      return state().setpoint_position_rad == target_rad && state().setpoint_velocity_rad_s == 0.0;
-    };
-  };
-  ASSERT_GE(bench_.step_until(arrived(0.5), 2000), 1000) << "0.5 rad at 0.5 rad/s";
-  EXPECT_NEAR(fastest_rad_s, 0.5, 1e-9);
-  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
-  ASSERT_GE(bench_.step_until(arrived(3.0), 2000), 0);
-  EXPECT_GT(fastest_rad_s, 5.0);
-}
-
 TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
   bench_.bring_to_hold(0);
@@ -169,31 +148,24 @@ TEST_F(JointLoopOrders, ShowNoticesWithTheLimitsInForce) {
   EXPECT_FALSE(bench_.has_notice(0, Notice::kSpeedLimited));
 }
 
-TEST_F(JointLoopOrders, OfAStandingJointThatIsPushedAreNotMistakenForAStuckSensor) {
-  bench_.bring_to_hold(0);
-  for (const double load_Nm : {10.0, 20.0, 10.0, -15.0, 0.0}) {
-    bench_.drive(0).simulated().set_load_torque_Nm(load_Nm);
-    bench_.run(2.0);
-    ASSERT_EQ(bench_.fault(0), Fault::kNone) << load_Nm;
-  }
-}
-
-TEST(JointLoopMoves, GoAtTheCalmShareOfTheSpeedLimitUnlessTheyNameASpeed) {
+TEST(JointLoopMoves, GoAtTheCalmShareOfTheSpeedLimitUnlessThatOrderNamesASpeed) {
   BenchJoint joint = demo_joint();
   joint.loop.move_speed_share = 0.25;
-  for (const double named_rad_s : {0.0, 5.0}) {
-    JointBench bench({joint});
-    bench.bring_to_hold(0);
-    ASSERT_EQ(
-        bench.order(
-            0, Order{.kind = OrderKind::kSetpoint, .position_rad = 2.0, .speed_limit_rad_s = named_rad_s}),
-        Reason::kAccepted);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  double target_rad = 1.5;
+  for (const double named_rad_s : {5.0, 0.0, 0.5}) {
+    ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kSetpoint,
+                                   .position_rad = target_rad,
+                                   .speed_limit_rad_s = named_rad_s}),
+              Reason::kAccepted);
     double fastest_rad_s = 0.0;
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 2500; ++k) {
       bench.step();
-      fastest_rad_s = std::max(fastest_rad_s, bench.state(0).setpoint_velocity_rad_s);
+      fastest_rad_s = std::max(fastest_rad_s, std::abs(bench.state(0).setpoint_velocity_rad_s));
     }
     EXPECT_NEAR(fastest_rad_s, named_rad_s == 0.0 ? 0.25 * 6.0 : named_rad_s, 1e-9);
+    target_rad -= 0.75;
   }
 }
 

@@ -51,21 +51,21 @@ TEST_F(JointLoopStart, MakeALossOfTemperatureAFaultWhereThatIsConfigured) {
 }
 
 TEST_F(JointLoopStart, RefuseToEnableAJointThatMovesAndSayHowFast) {
-  drifting_rad_s_ = 3.6;
+  drive_->drifting_rad_s = 3.6;
   for (int i = 0; i < 200; ++i) step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kMoving);
-  EXPECT_NEAR(last_reply_.value, 3.6, 1e-3);
-  EXPECT_EQ(last_reply_.limit, config_.standstill_rad_s);
+  EXPECT_NEAR(bench_->last_reply().value, 3.6, 1e-3);
+  EXPECT_EQ(bench_->last_reply().limit, config_.standstill_rad_s);
   EXPECT_EQ(loop_->mode(), Mode::kOff);
   EXPECT_FALSE(drive_->last.enable);
-  drifting_rad_s_ = 0.0;
+  drive_->drifting_rad_s = 0.0;
   stand();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
 }
 
 TEST_F(JointLoopStart, BeginWithTheMotionThatTheJointHasWhenItsDriveBecomesReady) {
   ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-  drifting_rad_s_ = 0.5;  // somebody pushes it while the drive starts
+  drive_->drifting_rad_s = 0.5;  // somebody pushes it while the drive starts
   for (int i = 0; i < 90; ++i) step();
   drive_->reading.drive_state = DriveState::kEnabled;
   step();
@@ -90,7 +90,7 @@ TEST_F(JointLoopStart, ShowTheControllersOwnSetpointFromTheFirstRecordOn) {
 
 TEST_F(JointLoopStart, RefuseEveryOrderThatCouldMoveAJointWhileTheDaemonEnds) {
   hold();
-  loop_->end({1'000'000'000 + (cycle_ + 1) * 1'000'000, cycle_ + 1});
+  loop_->end(bench_->time());
   EXPECT_EQ(loop_->mode(), Mode::kStopping);
   EXPECT_EQ(order(OrderKind::kSetpoint), Reason::kEnding);
   EXPECT_EQ(order(OrderKind::kHome), Reason::kEnding);

@@ -1,141 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sine of 0.5 rad and 0.5 Hz streamed to the whole loop on the simulated joint, at every rate: what torque it makes, and where the joint
-// is. What networks do to streams: tests/control/stream_buffer_network_test.cc. Virtual time.
+// Streams that begin roughly, far from the joint, late or wrongly, or that end: what the whole loop makes of them. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <tuple>
-#include <vector>
 
+#include "tests/daemon/realtime/joint/streamed_sine.h"
 #include "tests/support/flexible_bench.h"
-#include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {
 namespace {
-
-constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
-constexpr double kAmplitude_rad = 0.5;
-// Where the joint turns round friction changes its sign, and the sine itself takes 7 N.m in a period.
-constexpr double kTurning_rad_s = 0.3;
-constexpr std::int64_t kEpoch_us = 1'700'000'000'000'000;
-constexpr int kBegin = 2000;  // periods until the motion is judged
-constexpr int kEnd = 6000;
-
-struct Ride {
-  double rms_torque_Nm = 0.0;
-  double largest_step_Nm = 0.0;  ///< in a period, while the joint does not turn round
-  double rms_error_rad = 0.0;    ///< of the link, from the sine, the allowed lag ago
-  bool off_stream = false;
-};
-
-struct Stream {
-  int every = 10;  ///< periods
-  int derivatives = 0;
-  int ahead = 0;  ///< periods that it is stamped ahead; 0: it says when it was sent
-  bool flexible = false;
-  double load_kgm2 = 0.0;  ///< that it carries besides, and the stream tells of
-};
-
-Order sample(const Stream& stream, std::int64_t cycle, std::int64_t period) {
-  const double phase = kOmega_rad_s * 1e-3 * static_cast<double>(period + stream.ahead);
-  Order order;
-  order.kind = OrderKind::kSetpoint;
-  order.stream_id = 1;
-  order.begins_stream = period == 0;
-  order.approaches = stream.ahead > 60 && order.begins_stream;  // the sine is far away by then
-  order.valid_for_s = 0.2;
-  order.position_rad = kAmplitude_rad * std::sin(phase);
-  order.derivatives = stream.derivatives;
-  if (stream.derivatives > 0) order.velocity_rad_s = kAmplitude_rad * kOmega_rad_s * std::cos(phase);
-  if (stream.derivatives > 1)
-    order.acceleration_rad_s2 = -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(phase);
-  if (stream.ahead > 0)
-    order.at_cycle = cycle + stream.ahead;
-  else
-    order.sent_us = kEpoch_us + 1000 * period;
-  order.load_inertia_kgm2 = stream.load_kgm2;
-  return order;
-}
-
-Ride ride(const Stream& stream) {
-  BenchJoint joint = stream.flexible ? flexible_joint(stream.load_kgm2) : demo_joint();
-  JointBench bench({joint});
-  bench.bring_to_hold(0, stream.flexible ? flexible_table() : demo_table());
-  Ride result;
-  double last_Nm = 0.0;
-  for (int k = 0; k < kEnd; ++k) {
-    if (k % stream.every == 0) {
-      EXPECT_TRUE(bench.joint(0).orders().push(sample(stream, bench.cycle() + 1, k)));
-    }
-    bench.step();
-    const state_v1& state = bench.state(0);
-    const double torque_Nm = state.torque_commanded_Nm;
-    if (k >= kBegin) {
-      const double lag = stream.ahead == 0 ? 1e3 * JointControllerConfig{}.stream_delay_s : 0.0;
-      const double link_rad = bench.drive(0).simulated().plant().link_state().position_rad;
-      const double error_rad = link_rad - kAmplitude_rad * std::sin(kOmega_rad_s * 1e-3 * (k - lag));
-      result.rms_torque_Nm += torque_Nm * torque_Nm;
-      result.rms_error_rad += error_rad * error_rad;
-      if (std::abs(state.setpoint_velocity_rad_s) > kTurning_rad_s)
-        result.largest_step_Nm = std::max(result.largest_step_Nm, std::abs(torque_Nm - last_Nm));
-      result.off_stream = result.off_stream || bench.has_notice(0, Notice::kOffStream);
-    }
-    last_Nm = torque_Nm;
-  }
-  result.rms_torque_Nm = std::sqrt(result.rms_torque_Nm / (kEnd - kBegin));
-  result.rms_error_rad = std::sqrt(result.rms_error_rad / (kEnd - kBegin));
-  EXPECT_EQ(bench.mode(0), Mode::kTracking);
-  EXPECT_EQ(bench.fault(0), Fault::kNone);
-  return result;
-}
-
-/// The sine itself: a setpoint for each period, all derivatives, each for its own cycle.
-const Ride& smooth_sine(bool flexible) {
-  static const Ride rigid = ride({.every = 1, .derivatives = 2, .ahead = 30});
-  static const Ride on_a_spring = ride({.every = 1, .derivatives = 2, .ahead = 30, .flexible = true});
-  return flexible ? on_a_spring : rigid;
-}
-
-class JointLoopStreams : public ::testing::TestWithParam<std::tuple<Stream, bool>> {};
-
-TEST_P(JointLoopStreams, TakeTheTorqueOfTheMotionAndNoMore) {
-  Stream stream = std::get<Stream>(GetParam());
-  stream.flexible = std::get<bool>(GetParam());
-  const Ride streamed = ride(stream);
-  const Ride& smooth = smooth_sine(stream.flexible);
-  EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth.rms_torque_Nm);
-  EXPECT_LT(streamed.largest_step_Nm, smooth.largest_step_Nm + 1.0);
-  EXPECT_LT(streamed.rms_error_rad, 1e-3);
-  EXPECT_FALSE(streamed.off_stream);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    AtEveryRate, JointLoopStreams,
-    ::testing::Combine(::testing::Values(Stream{50, 0}, Stream{50, 1}, Stream{50, 2}, Stream{20, 0},
-                                         Stream{20, 1}, Stream{10, 0}, Stream{10, 1}, Stream{10, 2},
-                                         Stream{5, 0}, Stream{5, 1}, Stream{3, 0}, Stream{3, 1}, Stream{2, 0},
-                                         Stream{2, 1}, Stream{10, 1, 30}, Stream{20, 0, 30},
-                                         Stream{50, 1, 10}, Stream{2, 1, 100}, Stream{2, 0, 60},
-                                         Stream{10, 1, 900}),
-                       ::testing::Bool()),
-    [](const ::testing::TestParamInfo<std::tuple<Stream, bool>>& instance) {
-      const Stream& stream = std::get<Stream>(instance.param);
-      return std::to_string(1000 / stream.every) + "Hz" + std::to_string(stream.derivatives) +
-             (stream.ahead > 0 ? "Ahead" + std::to_string(stream.ahead) : "") +
-             (std::get<bool>(instance.param) ? "OnASpring" : "");
-    });
-
-// What the motor's own motion takes, regulated as it is, fed forward times the load's inertia a period later would drive it on.
-TEST(JointLoopStreaming, CarryALoadThatTheyTellOfOnASpring) {
-  for (const double load_kgm2 : {0.05, 0.2}) {
-    const Ride streamed = ride({.derivatives = 1, .ahead = 40, .flexible = true, .load_kgm2 = load_kgm2});
-    EXPECT_LT(streamed.rms_error_rad, 5e-4) << load_kgm2;
-    EXPECT_LT(streamed.largest_step_Nm, smooth_sine(true).largest_step_Nm + 1.0) << load_kgm2;
-  }
-}
 
 /// A sine at random, with noise on its positions to begin with; the torque's root mean square from 2.5 s on.
 double rms_after_noise_Nm(unsigned seed) {
@@ -154,8 +30,7 @@ double rms_after_noise_Nm(unsigned seed) {
   double squares = 0.0;
   for (int k = 0; k < 4000; ++k) {
     if (k % every == 0) {
-      Order order = sample({.ahead = ahead}, bench.cycle() + 1, k);
-      order.approaches = order.begins_stream;
+      Order order = StreamedSine{.ahead = ahead}.sample(bench.cycle() + 1, k);
       order.position_rad = amplitude_rad * std::sin(omega_rad_s * 1e-3 * (k + ahead)) +
                            (1e-3 * k < noisy_s ? noise_rad * between(-1.0, 1.0) : 0.0);
       EXPECT_TRUE(bench.joint(0).orders().push(order));
@@ -197,7 +72,7 @@ TEST(JointLoopStreaming, ShowTheirLastSampleAsTheTarget) {
 TEST(JointLoopStreaming, RefuseAndCountASampleForACycleThatIsOverAndOneFarAway) {
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
-  Order order = sample({.derivatives = 1, .ahead = 30}, bench.cycle() + 1, 0);
+  Order order = StreamedSine{.derivatives = 1, .ahead = 30}.sample(bench.cycle() + 1, 0);
   ASSERT_EQ(bench.order(0, order), Reason::kAccepted);
   order.begins_stream = false;
   order.at_cycle = bench.cycle();
@@ -216,7 +91,7 @@ TEST(JointLoopStreaming, TellThatSamplesAreMissingFromTheStopOnUntilOneComesOrTh
   bench.bring_to_hold(0);
   const auto told = [&] { return bench.has_notice(0, Notice::kSamplesMissing); };
   const auto send = [&](std::int64_t period) {
-    Order order = sample({.derivatives = 1}, bench.cycle() + 1, period);
+    Order order = StreamedSine{.derivatives = 1}.sample(bench.cycle() + 1, period);
     order.valid_for_s = 1.0;
     return bench.order(0, order);
   };
@@ -246,7 +121,8 @@ TEST(JointLoopStreaming, AreRefusedFarFromTheJointOrApproachItAtTheSpeedOfAMove)
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
   const double limit_rad = demo_joint().loop.limits.following_error_rad;
-  Order order = sample({.derivatives = 1, .ahead = 30}, bench.cycle() + 1, 0);
+  Order order = StreamedSine{.derivatives = 1, .ahead = 30}.sample(bench.cycle() + 1, 0);
+  order.approaches = false;
   order.velocity_rad_s = 0.0;
   order.position_rad = 2.0 * limit_rad + 0.5;
   EXPECT_EQ(bench.order(0, order), Reason::kFarFromJoint);
@@ -278,7 +154,7 @@ TEST(JointLoopStreaming, EndWithANoticeWhereTheirVelocitiesContradictTheirPositi
       Reason last = Reason::kAccepted;
       int taken = 0;
       for (int k = 0; k < 500 && last == Reason::kAccepted; k += 10, ++taken) {
-        Order order = sample({.derivatives = 1, .ahead = 30}, bench.cycle() + 1, k);
+        Order order = StreamedSine{.derivatives = 1, .ahead = 30}.sample(bench.cycle() + 1, k);
         order.velocity_rad_s *= wrong;
         last = bench.order(0, order);
         bench.run(0.009);

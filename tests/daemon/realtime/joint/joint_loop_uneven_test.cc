@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <ostream>
 #include <random>
 
@@ -51,13 +52,10 @@ class UnevenJoint {
     config.controller.encoder_resolution_rad = 2.0 * std::numbers::pi / data.counts_per_revolution;
     config.controller.motor = {1e9, 150.0, 19.1};
     config.missed_readings_limit = 1000;
-    loop_ = std::make_unique<JointLoop>(0, config, std::move(drive), *replies_, *events_);
-    loop_->table_slot(0) = {demo_table(), 1};
-    order({.kind = OrderKind::kUseTable});
-    run(50);
-    order({.kind = OrderKind::kEnable});
-    run(300);
-    EXPECT_EQ(loop_->mode(), Mode::kHolding);
+    bench_.emplace(config, std::move(drive));
+    bench_->run(0.05);
+    bench_->bring_to_hold(0);
+    bench_->run(0.3);
   }
 
   Moves move(int count) {
@@ -86,37 +84,21 @@ class UnevenJoint {
   void move_to(double target_rad, Moves& moves) {
     const int stall_at = std::uniform_int_distribution<int>(1, 150)(random_);
     const double side = target_rad > position_rad() ? 1.0 : -1.0;
-    order({.kind = OrderKind::kSetpoint, .position_rad = target_rad});
+    EXPECT_EQ(bench_->move(0, target_rad), Reason::kAccepted);
     for (int k = 0; k < 1000; ++k) {
-      step(stall_periods_ > 0 && k == stall_at ? stall_periods_ : 0);
+      if (k == stall_at) bench_->stall(stall_periods_);
+      bench_->step();
       moves.overshoot_rad = std::max(moves.overshoot_rad, side * (position_rad() - target_rad));
     }
-    moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;
+    moves.faults += bench_->mode(0) == Mode::kFaulted ? 1 : 0;
     moves.off_rad = std::max(moves.off_rad, std::abs(position_rad() - target_rad));
-  }
-  void order(Order order) {
-    order.id = ++time_.cycle;
-    loop_->orders().push(order);
-    step();
-  }
-  void run(int periods) {
-    for (int k = 0; k < periods; ++k) step();
-  }
-  void step(int skipped = 0) {
-    time_.elapsed_periods = 1 + skipped;
-    time_.cycle += time_.elapsed_periods;
-    time_.now_ns += time_.elapsed_periods * 1'000'000;
-    loop_->step(time_);
   }
   double position_rad() const { return drive_->joint().position_rad(); }
 
   std::mt19937_64 random_;
-  std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
-  std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
   StrictDrive* drive_ = nullptr;
-  std::unique_ptr<JointLoop> loop_;
+  std::optional<JointBench> bench_;
   int stall_periods_ = 0;
-  CycleTime time_{1'000'000'000, 0, 1};
 };
 
 void expect_sound(const Uneven& uneven, std::uint64_t seed) {

@@ -78,12 +78,6 @@ GainTable demo_table_with(double torque_limit_Nm) {
   return table;
 }
 
-// What the joint's own limit leaves, 20.65 N.m, would be more than the table lets it press with. The pushes back to a lost count are up to all
-// of the torque, for a period each.
-TEST(UsualLoad, IsThatOfATableWithLessTorqueThanTheJoint) {
-  (void)lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table_with(20.0), "table of 20 N.m");
-}
-
 TEST(UsualLoad, FollowsTheTableThatComesLater) {
   JointBench bench({with_usual_load(demo_joint(), kMotor_kgm2)});
   bench.bring_to_hold(0, demo_table_with(20.0));

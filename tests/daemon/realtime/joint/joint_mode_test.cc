@@ -25,31 +25,21 @@ TEST(ModeMachine, LeavesFaultedOnlyByAClearAndOnlyToOff) {
   }
 }
 
-TEST(ModeMachine, StartsOnlyByAnEnableOrder) {
+TEST(ModeMachine, StartsTracksAndHomesOnlyByTheOrderForItAndOnlyFromWhereItMay) {
   for (const Mode mode : kModes)
-    for (const ModeEvent event : kEvents)
-      if (next_mode(mode, event) == Mode::kStarting) {
+    for (const ModeEvent event : kEvents) {
+      const auto next = next_mode(mode, event);
+      if (next == Mode::kStarting) {
         EXPECT_EQ(mode, Mode::kOff);
         EXPECT_EQ(event, ModeEvent::kEnableOrdered);
-      }
-}
-
-TEST(ModeMachine, TracksOnlyFromUnderControlAndOnlyByASetpoint) {
-  for (const Mode mode : kModes)
-    for (const ModeEvent event : kEvents)
-      if (next_mode(mode, event) == Mode::kTracking) {
-        EXPECT_EQ(event, ModeEvent::kSetpointAccepted);
-        EXPECT_TRUE(mode == Mode::kHolding || mode == Mode::kTracking);
-      }
-}
-
-TEST(ModeMachine, LooksForHomeOnlyFromHoldingAndOnlyByAnOrder) {
-  for (const Mode mode : kModes)
-    for (const ModeEvent event : kEvents)
-      if (next_mode(mode, event) == Mode::kHoming) {
-        EXPECT_EQ(event, ModeEvent::kHomeOrdered);
+      } else if (next == Mode::kHoming) {
         EXPECT_EQ(mode, Mode::kHolding);
+        EXPECT_EQ(event, ModeEvent::kHomeOrdered);
+      } else if (next == Mode::kTracking) {
+        EXPECT_TRUE(mode == Mode::kHolding || mode == Mode::kTracking);
+        EXPECT_EQ(event, ModeEvent::kSetpointAccepted);
       }
+    }
 }
 
 TEST(ModeMachine, TakesNoMotionBeforeTheBrakeIsOpen) {
@@ -80,21 +70,6 @@ TEST(ModeMachine, ReachesOffFromEveryModeByDisableAndStandstill) {
     if (now == Mode::kStopping) now = *next_mode(now, ModeEvent::kStopped);
     EXPECT_EQ(now, Mode::kOff);
   }
-}
-
-TEST(JointMode, BeginsOffWithoutAFault) {
-  const JointMode mode;
-  EXPECT_EQ(mode.mode(), Mode::kOff);
-  EXPECT_EQ(mode.fault(), Fault::kNone);
-  EXPECT_EQ(mode.faults_total(), 0);
-  EXPECT_FALSE(mode.controlled());
-}
-
-TEST(JointMode, StaysWhatItIsWhenAnEventMeansNothing) {
-  JointMode mode;
-  EXPECT_FALSE(mode.apply(ModeEvent::kSetpointAccepted, 1));
-  EXPECT_FALSE(mode.apply(ModeEvent::kFaultCleared, 1));
-  EXPECT_EQ(mode.mode(), Mode::kOff);
 }
 
 TEST(JointMode, CountsItsTimeFromTheChangeAndNotFromARepetition) {

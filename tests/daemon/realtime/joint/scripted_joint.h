@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 
 #include "tests/support/joint_bench.h"
 
@@ -13,7 +14,11 @@ namespace strainwave::testing {
 
 class ScriptedActuator final : public Actuator {
  public:
-  ActuatorReading read(std::int64_t) noexcept override { return reading; }
+  ActuatorReading read(std::int64_t now_ns) noexcept override {
+    reading.joint_position_rad += drifting_rad_s * 0.001;
+    reading.temperature_produced_ns = now_ns;
+    return reading;
+  }
   void write(const ActuatorCommand& command) noexcept override { last = command; }
   void stop() noexcept override {
     last = {};
@@ -23,6 +28,7 @@ class ScriptedActuator final : public Actuator {
 
   ActuatorReading reading;
   ActuatorCommand last;
+  double drifting_rad_s = 0.0;
   int stops = 0;
 };
 
@@ -36,38 +42,29 @@ class ScriptedJoint : public ::testing::Test {
     make();
   }
   void make() {
-    cycle_ = 0;
     auto drive = std::make_unique<ScriptedActuator>();
     drive_ = drive.get();
     drive_->reading.has_position = true;
     drive_->reading.has_temperature = true;
     drive_->reading.temperature_C = 25.0;
-    loop_ = std::make_unique<JointLoop>(0, config_, std::move(drive), replies_, events_);
+    bench_.emplace(config_, std::move(drive));
+    loop_ = &bench_->joint(0);
     loop_->table_slot(0) = {demo_table(), 1};
     order(OrderKind::kUseTable);
   }
-  void step() {
-    drive_->reading.joint_position_rad += drifting_rad_s_ * 0.001;
-    const std::int64_t now_ns = 1'000'000'000 + ++cycle_ * 1'000'000;
-    drive_->reading.temperature_produced_ns = now_ns;
-    loop_->step({now_ns, cycle_});
-  }
+  void step() { bench_->step(); }
   /// Long enough to be seen not to move.
   void stand() {
     for (int i = 0; i < 200; ++i) step();
   }
-  Reason order(OrderKind kind) {
-    loop_->orders().push({1, kind, 0, 0.0, 0.0, {}});
-    step();
-    return replies_.pop(last_reply_) ? last_reply_.reason : Reason::kTimedOut;
-  }
+  Reason order(OrderKind kind) { return bench_->order(0, kind); }
   void hold() {
     ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
     drive_->reading.drive_state = DriveState::kEnabled;
     step();
     ASSERT_EQ(loop_->mode(), Mode::kHolding);
   }
-  Fault fault() const { return static_cast<Fault>(loop_->record().state.fault); }
+  Fault fault() const { return bench_->fault(0); }
   /// Cycles until the fault, counting the first one as 1; 0 when none comes within `limit`.
   int cycles_until_fault(int limit) {
     for (int cycles = 1; cycles <= limit; ++cycles) {
@@ -77,14 +74,10 @@ class ScriptedJoint : public ::testing::Test {
     return 0;
   }
 
-  ReplyQueue replies_;
-  EventQueue events_;
   JointLoopConfig config_;
+  std::optional<JointBench> bench_;
   ScriptedActuator* drive_ = nullptr;
-  std::unique_ptr<JointLoop> loop_;
-  Reply last_reply_;
-  std::int64_t cycle_ = 0;
-  double drifting_rad_s_ = 0.0;
+  JointLoop* loop_ = nullptr;
 };
 
 }  // namespace strainwave::testing

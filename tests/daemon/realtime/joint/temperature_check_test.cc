@@ -35,13 +35,10 @@ class TemperatureCheckTest : public ::testing::Test {
   std::int64_t now_ns_ = 5 * kSecond_ns;
 };
 
-TEST_F(TemperatureCheckTest, KnowsNothingBeforeTheFirstReading) {
-  check_.update(false, 0.0, 0, now_ns_);
+TEST_F(TemperatureCheckTest, KnowsNothingBeforeTheFirstPlausibleReadingWhichItUsesAtOnce) {
+  silence(0.0);
   EXPECT_EQ(check_.status(), TemperatureStatus::kNeverSeen);
   EXPECT_FALSE(check_.known());
-}
-
-TEST_F(TemperatureCheckTest, UsesTheFirstPlausibleReadingAtOnce) {
   read(20.0, 0.1);
   EXPECT_TRUE(check_.known());
   EXPECT_EQ(check_.used_C(), 20.0);

@@ -49,10 +49,5 @@ TEST(OverrunWatch, ForgetsWhatIsSecondsAgo) {
   }
 }
 
-TEST(OverrunWatch, ToleratesAnythingWhereTheLimitsSaySo) {
-  OverrunWatch watch({1e6, 1.0}, kPeriod_s);
-  for (int i = 0; i < 10000; ++i) EXPECT_EQ(watch.judge(i % 2000), Fault::kNone);
-}
-
 }  // namespace
 }  // namespace strainwave
