@@ -20,11 +20,14 @@ const FlexibleTables& shipped_tables() {
 }
 
 // Load, stiffness, friction or jitter, each alone: the link rests within 1.5 mrad, most within 0.3. Links below those of the table's box are
-// left out, since the daemon refuses them; a delay of one period more than configured is for tables that are designed for it.
-TEST(WronglyConfigured, EveryJointOfTheGridRestsNearItsTarget) {
+// left out, since the daemon refuses them; a delay of one period more than configured is for tables that are designed for it. The whole grid
+// is `strainwave-sim flexible --wrong`.
+TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
+  std::vector<FlexibleCell> cells;
+  const std::vector<FlexibleCell> grid = wrongly_configured_grid();
+  for (std::size_t i = 0; i < grid.size(); i += 5) cells.push_back(grid[i]);
   std::map<std::string, double> worst_rad;
-  for (const WronglyConfiguredRow& row :
-       run_wrongly_configured(wrongly_configured_grid(), daemon_contender(shipped_tables()))) {
+  for (const WronglyConfiguredRow& row : run_wrongly_configured(cells, daemon_contender(shipped_tables()))) {
     EXPECT_FALSE(row.result.oscillates) << row.cell.effect << ", link " << row.cell.link_inertia_kgm2;
     if (row.cell.effect == kOneMorePeriod ||
         row.cell.link_inertia_kgm2 < shipped_tables().shipped.box.link_inertia_kgm2.from)
