@@ -69,9 +69,9 @@ TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
 // A stream whose every sample begins it anew is a poor sender's, and no reason to shake: its reference turned round in every period at
 // the end, by 13 N.m and more, until the sensor was taken for stuck (49 of 168).
 TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoadAre) {
-  for (const double friction : {0.6, 0.8, 1.0, 1.2, 1.5, 1.7})
-    for (const double load_Nm : {0.0, 4.0, 8.0, 12.0})
-      for (const double end_rad : {1.0, 0.7, 0.3}) {
+  for (const double friction : {0.6, 1.0, 1.7})
+    for (const double load_Nm : {0.0, 8.0, 12.0})
+      for (const double end_rad : {1.0, 0.3}) {
         BenchJoint joint = demo_joint_with_friction(friction);
         joint.loop.limits.following_error_rad = 0.2;
         JointBench bench({joint});
