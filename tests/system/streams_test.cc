@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sine of 0.5 rad and 0.5 Hz streamed to the running daemon over LCM, on a rigid joint and on a link on a spring, with what a network does
-// to it; every cycle's state. For the virtual machine of tests/vm.
+// A sine of 0.5 rad and 0.5 Hz streamed to the running daemon over LCM, on a link on a spring, with what a network does to it; every cycle's
+// state. For the virtual machine of tests/vm.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,13 +31,12 @@ struct Ride {
   std::int64_t cycles = 0;
 };
 
-class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bool> {
+class DaemonStreams : public DaemonTest {
  protected:
   void SetUp() override {
     if (!in_virtual_time()) GTEST_SKIP() << "for the virtual machine: ctest -L vm";
-    const bool flexible = GetParam();
-    const GainTable table = flexible ? read_gain_table(programs_folder() / "c4.json") : shipped_table();
-    daemon_.emplace(folder_, joint(flexible, table.plant.inertia_kgm2));
+    const GainTable table = read_gain_table(programs_folder() / "c4.json");
+    daemon_.emplace(folder_, kJoint);
     client_.emplace();
     ASSERT_TRUE(client_->wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
     const Answer loaded = client_->load("elbow", table);
@@ -47,19 +46,13 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     client_->pump(milliseconds(3000));  // the temperature must have been good for a while
   }
 
-  static std::string joint(bool flexible, double inertia_kgm2) {
-    const std::string limits =
-        "[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\nspeed_limit_rad_s = 6\n"
-        "acceleration_rad_s2 = 150\nfollowing_error_rad = 0.1\ntorque_limit_Nm = 34\n";
-    const std::string spring =
-        "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.089\n";
-    return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
-           "\"allow\"\n"
-           "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = "
-           "\"simulated\"\n" +
-           (flexible ? spring + limits + "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n"
-                     : "model = \"rigid\"\ninertia_kgm2 = " + std::to_string(inertia_kgm2) + "\n" + limits);
-  }
+  static constexpr const char* kJoint =
+      "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = \"allow\"\n"
+      "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = \"simulated\"\n"
+      "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.089\n"
+      "[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\nspeed_limit_rad_s = 6\n"
+      "acceleration_rad_s2 = 150\nfollowing_error_rad = 0.1\ntorque_limit_Nm = 34\n"
+      "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n";
 
   /// A sample every `every` cycles, of which the network loses, doubles and reorders a tenth each and has gaps of 30 ms if it is `bad`.
   Ride ride(std::int64_t every, int derivatives, bool bad) {
@@ -208,7 +201,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
   std::optional<TestClient> client_;
 };
 
-TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes) {
+TEST_F(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes) {
   const Ride smooth = ride(5, 1, false);
   const auto print = [&](const char* what, const Ride& one) {
     std::printf("%s: %lld cycles, torque rms %.3f N.m, step %.3f N.m, error rms %.3f, largest %.3f mrad\n",
@@ -232,7 +225,7 @@ TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes)
   EXPECT_LT(hurt.largest_error_rad, 5e-3);
 }
 
-TEST_P(DaemonStreams, OfASlowSenderAreFollowedByItsClockWhateverIsLost) {
+TEST_F(DaemonStreams, OfASlowSenderAreFollowedByItsClockWhateverIsLost) {
   const auto print = [&](const char* what, const Ride& one) {
     std::printf("20 Hz, positions by utime, %s: %lld cycles, setpoint off by %.2f mrad, step %.2f N.m\n",
                 what, static_cast<long long>(one.cycles), 1e3 * one.largest_error_rad, one.largest_step_Nm);
@@ -250,11 +243,6 @@ TEST_P(DaemonStreams, OfASlowSenderAreFollowedByItsClockWhateverIsLost) {
   EXPECT_LT(hurt.largest_error_rad, 5e-3);
   EXPECT_LT(hurt.largest_step_Nm, all_came.largest_step_Nm + 2.0);
 }
-
-INSTANTIATE_TEST_SUITE_P(OnBothJoints, DaemonStreams, ::testing::Bool(),
-                         [](const ::testing::TestParamInfo<bool>& instance) {
-                           return instance.param ? "Spring" : "Rigid";
-                         });
 
 }  // namespace
 }  // namespace strainwave::testing
