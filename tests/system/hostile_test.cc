@@ -24,11 +24,11 @@ using HostileSystem = AttackedDaemon;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Of four seconds, unless $STRAINWAVE_HOSTILE_DATAGRAMS says otherwise.
+/// Of two seconds, unless $STRAINWAVE_HOSTILE_DATAGRAMS says otherwise.
 std::int64_t datagrams() {
   const char* text =
       std::getenv("STRAINWAVE_HOSTILE_DATAGRAMS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-  return text != nullptr ? std::stoll(text) : 200'000;
+  return text != nullptr ? std::stoll(text) : 100'000;
 }
 
 constexpr double kDatagramsPer_s = 50'000.0;
