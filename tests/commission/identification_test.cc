@@ -41,11 +41,11 @@ std::optional<double> goal(const std::string& quantity) {
   return std::nullopt;
 }
 
-// 160 gives its resonance and its link only where the sines rise towards the resonance.
-TEST(IdentificationStudy, FindsTheNumbersOfFourJointsWithinGoalsAndIntervals) {
+// 160 gives its resonance and its link only where the sines rise towards the resonance. The whole study is commission_study.
+TEST(Identification, FindsTheNumbersOfTwoJointsWithinGoalsAndIntervals) {
   int all = 0, held = 0;
-  for (const std::uint64_t seed : {1U, 2U, 3U, 160U}) {
-    const Found one = find(seed);
+  for (const std::uint64_t seed : {2U, 160U}) {
+    const Found one = seed == 2U ? found() : find(seed);
     EXPECT_EQ(one.run.problem, "") << seed;
     EXPECT_GE(one.estimates.friction.size(), 2U) << seed;
     for (const Comparison& comparison : compare(one.joint, one.estimates)) {
@@ -62,9 +62,9 @@ TEST(IdentificationStudy, FindsTheNumbersOfFourJointsWithinGoalsAndIntervals) {
 }
 
 // Joints that swing little under what moves them: friction, gravity, a small range of speed. What cannot be known is then not found.
-TEST(IdentificationStudy, FindsNothingWrongWhereTheMotionShowsLittle) {
+TEST(Identification, FindsNothingWrongWhereTheMotionShowsLittle) {
   int absent = 0;
-  for (const std::uint64_t seed : {62U, 123U, 177U}) {
+  for (const std::uint64_t seed : {62U, 177U}) {
     const Found one = find(seed);
     for (const Comparison& comparison : compare(one.joint, one.estimates)) {
       const auto most = goal(comparison.quantity);
