@@ -36,7 +36,7 @@ struct FrictionAtSpeed {
 };
 
 /// Of the motion: what torque and position say together while the motor slides. Absent is what the trace does not show: a half width
-/// above 5 %, of a resonance above 2 %, of damping above half.
+/// above 5 %, of a resonance above 2 %, of damping above half. So are stiffness and resonances where the lost motion's is above 20 %.
 struct MotionEstimates {
   IntervalEstimate
       delay_s;  ///< from an order to its torque: the drive's delay and the time constant of its current loop

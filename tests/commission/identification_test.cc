@@ -62,9 +62,10 @@ TEST(Identification, FindsTheNumbersOfTwoJointsWithinGoalsAndIntervals) {
 }
 
 // Joints that swing little under what moves them: friction, gravity, a small range of speed. What cannot be known is then not found.
+// 157 swings within its lost motion, where another lost motion and a spring 60 % stiffer fit as well.
 TEST(Identification, FindsNothingWrongWhereTheMotionShowsLittle) {
   int absent = 0;
-  for (const std::uint64_t seed : {62U, 177U}) {
+  for (const std::uint64_t seed : {62U, 157U}) {
     const Found one = find(seed);
     for (const Comparison& comparison : compare(one.joint, one.estimates)) {
       const auto most = goal(comparison.quantity);
