@@ -41,10 +41,9 @@ struct PathTime {
 /// Begins at 0, at the full rate: a path begins at rest.
 class PathClock {
  public:
-  /// From rest to the full rate and back takes at least 0.1 s: what the accelerations allow of slow paths would be a jerk.
-  static constexpr double kFastestChange_1_s = 10.0;
-  /// None limits more than this one.
-  static constexpr RateRoom kMostRoom{kFastestChange_1_s, kFastestChange_1_s};
+  /// None allows more than this one: from rest to the full rate and back takes at least 0.1 s. What the accelerations allow of slow paths
+  /// would be a jerk.
+  static constexpr RateRoom kMostRoom{10.0, 10.0};
 
   void run() noexcept { wish_ = Wish::kRun; }
   void rest() noexcept { wish_ = Wish::kRest; }
