@@ -49,6 +49,12 @@ bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
   return std::abs(off_rad) <= RestCorrections::kAtPlaceCounts * count_of(config);
 }
 
+// At rest: a motor that stands off its place, or is pushed far from it. Else it still swings.
+bool shows_load(const JointControllerConfig& config, const JointReading& reading, double off_rad) noexcept {
+  return reading.still_periods() * config.period_s >= RestCorrections::kStands_s ||
+         std::abs(off_rad) > RestCorrections::kPushedCounts * count_of(config);
+}
+
 MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {
   const bool returns =
       config.drive_mode == DriveMode::kVelocity && (plan.moves() || !at_place(config, off_rad));
@@ -227,7 +233,7 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   return output;
 }
 
-// From an order's own motion, at a torque that is not limited and a reading that is fresh; a load also from a motor that stands off its place.
+// From an order's own motion, at a torque that is not limited and a reading that is fresh; at rest a load alone.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
   if (phase_ != MotionPhase::kTracking || output.saturated || plan_.planner().exhausted() ||
       !measurement.has_position || measurement.elapsed_periods > 1)
@@ -238,8 +244,7 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
   if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
   const double learns_for_s = config_.period_s * learning_share(config_);
-  const bool stands = reading_.still_periods() * config_.period_s >= RestCorrections::kStands_s;
-  if (!moves && stands)
+  if (!moves && shows_load(config_, reading_, off_rad(plan_, reading_)))
     friction_.learn_load(output.feedback_torque_Nm, learns_for_s);
   else if (moves && velocity_rad_s != 0.0 && !plan_.corrections().begun())
     friction_.learn(output.feedback_torque_Nm, velocity_rad_s, learns_for_s);
