@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/studies/link_limit.h"
+
 namespace strainwave {
 namespace {
 
@@ -19,7 +21,7 @@ const FlexibleTables& shipped_tables() {
   return read;
 }
 
-// Load, stiffness, friction or jitter, each alone: the link rests within 1.5 mrad, most within 0.3. Links below those of the table's box are
+// Load, stiffness, friction or jitter, each alone: the link rests within 0.5 mrad. Links below those of the table's box are
 // left out, since the daemon refuses them; a delay of one period more than configured is for tables that are designed for it. The whole grid
 // is `strainwave-sim flexible --wrong`.
 TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
@@ -27,8 +29,13 @@ TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
   const std::vector<FlexibleCell> grid = wrongly_configured_grid();
   for (std::size_t i = 0; i < grid.size(); i += 5) cells.push_back(grid[i]);
   std::map<std::string, double> worst_rad;
+  int wrong_loads = 0;
+  int stand_off = 0;
   for (const WronglyConfiguredRow& row : run_wrongly_configured(cells, daemon_contender(shipped_tables()))) {
     EXPECT_FALSE(row.result.oscillates) << row.cell.effect << ", link " << row.cell.link_inertia_kgm2;
+    const bool wrong_load = row.cell.effect.starts_with("load");
+    wrong_loads += wrong_load ? 1 : 0;
+    stand_off += wrong_load && row.result.rest_error_rad > kCountedError_rad ? 1 : 0;
     if (row.cell.effect == kOneMorePeriod ||
         row.cell.link_inertia_kgm2 < shipped_tables().shipped.box.link_inertia_kgm2.from)
       continue;
@@ -36,7 +43,12 @@ TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
     double& worst = worst_rad[row.cell.effect];
     worst = std::max(worst, row.result.rest_error_rad);
   }
-  for (const auto& [effect, worst] : worst_rad) EXPECT_LE(worst, 1.5e-3) << effect;
+  for (const auto& [effect, worst] : worst_rad) {
+    const bool alone = !effect.starts_with("model") && !effect.starts_with("every");
+    EXPECT_LE(worst, alone ? 0.5e-3 : 1.5e-3) << effect;
+  }
+  // The goal is 30 of 432 joints for each of both loads. Before a motion's mean stayed, 45 of 432 stood off in the mean.
+  EXPECT_LE(432 * stand_off, 30 * wrong_loads);
 }
 
 // Gains that are certified for one period of delay more than configured keep every joint of their box in motion.
