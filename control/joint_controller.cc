@@ -26,6 +26,9 @@ constexpr double kLinkLearning = 0.5;
 // A drive's own integrator is quick; what is learned of its torque, with its noise, need not be (strainwave-sim own-loop).
 constexpr double kOwnLoopLearning = 0.1;
 
+// After a motion whose friction is 30 % more than the table's; half of it is too short (`strainwave-sim flexible --wrong`).
+constexpr double kSwings_s = 0.2;
+
 double learning_share(const JointControllerConfig& config) noexcept {
   if (config.drive_closes_loop()) return kOwnLoopLearning;
   return config.encoder_side == EncoderSide::kLink ? kLinkLearning : 1.0;
@@ -49,10 +52,11 @@ bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
   return std::abs(off_rad) <= RestCorrections::kAtPlaceCounts * count_of(config);
 }
 
-// At rest: a motor that stands off its place, or is pushed far from it. Else it still swings.
-bool shows_load(const JointControllerConfig& config, const JointReading& reading, double off_rad) noexcept {
+// Of a joint at rest. Just after a motion one that does not stand still swings, and its torque is no load.
+bool shows_load(const JointControllerConfig& config, const JointPlan& plan,
+                const JointReading& reading) noexcept {
   return reading.still_periods() * config.period_s >= RestCorrections::kStands_s ||
-         std::abs(off_rad) > RestCorrections::kPushedCounts * count_of(config);
+         plan.planner().rests_for_s() >= kSwings_s;
 }
 
 MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {
@@ -244,7 +248,7 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
   if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
   const double learns_for_s = config_.period_s * learning_share(config_);
-  if (!moves && shows_load(config_, reading_, off_rad(plan_, reading_)))
+  if (!moves && shows_load(config_, plan_, reading_))
     friction_.learn_load(output.feedback_torque_Nm, learns_for_s);
   else if (moves && velocity_rad_s != 0.0 && !plan_.corrections().begun())
     friction_.learn(output.feedback_torque_Nm, velocity_rad_s, learns_for_s);

@@ -15,8 +15,6 @@ class RestCorrections {
   static constexpr double kStands_s = 0.02;
   /// A motor that is off by more is not at its place: one count is what the reading cannot tell, and there is rounding.
   static constexpr double kAtPlaceCounts = 1.01;
-  /// A motor that friction holds this far off does not exist: it is pushed, and the law and the learned load bring it back.
-  static constexpr double kPushedCounts = 250.0;
 
   /// `period_s` > 0; `count_rad` > 0: what the reading cannot tell.
   RestCorrections(double period_s, double count_rad) noexcept
@@ -48,6 +46,8 @@ class RestCorrections {
   /// `strainwave-sim flexible --wrong`: with 6 more joints of a wrong load stand beside their place; with 9 or more the first oscillate at
   /// a wrong delay, until they are switched off.
   static constexpr int kMost = 8;
+  /// A motor that friction holds this far off does not exist: it is pushed, and the law and the learned load bring it back.
+  static constexpr double kPushedCounts = 250.0;
   /// At one count in so many periods a motor stops in less than a count.
   static constexpr int kStillPeriods = 3;
   /// A correction that brings nothing adds this share of the friction; half of it from when one has gone too far.

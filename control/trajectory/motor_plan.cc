@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace strainwave {
@@ -12,6 +13,8 @@ namespace {
 
 // Two means of one period at least on a spring: else the acceleration steps.
 constexpr int kLeastSpread = 2;
+// Periods.
+constexpr int kEver = std::numeric_limits<int>::max() / 2;
 // Of the way to the motion, in a period.
 constexpr double kYield = 0.2;
 
@@ -106,7 +109,7 @@ double MotorPlanner::reset(double motor_position_rad, double velocity_rad_s) noe
   wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0}, 0.0);
   jerk_rad_s3_ = 0.0;
   next_ = wanted_;
-  rest_periods_ = velocity_rad_s == 0.0 ? config_.delay_periods + 1 : 0;
+  rest_periods_ = velocity_rad_s == 0.0 ? kEver : 0;
   return planned_rad;
 }
 
@@ -174,7 +177,7 @@ MotorPlan MotorPlanner::plan() noexcept {
   plan.acting_end_position_rad = next_.motor_position_rad;
   const bool rests = begin.motor_velocity_rad_s == 0.0 && next_.motor_velocity_rad_s == 0.0 &&
                      next_.motor_position_rad == begin.motor_position_rad;
-  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxControlDelay + 1) : 0;
+  rest_periods_ = rests ? std::min(rest_periods_, kEver) + 1 : 0;
   return plan;
 }
 

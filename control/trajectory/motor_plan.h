@@ -97,6 +97,8 @@ class MotorPlanner {
 
   /// Whether anything is still to be done: the last plan, or what of it has not acted yet.
   bool moves() const noexcept { return rest_periods_ <= config_.delay_periods; }
+  /// For how long nothing has been to be done; of a plan that has begun at rest, for long.
+  double rests_for_s() const noexcept { return (rest_periods_ - config_.delay_periods) * config_.period_s; }
   /// The plan's motor and link so many periods before now, 0..kMaxControlDelay.
   LinkState before(int periods) const noexcept {
     return states_[static_cast<std::size_t>(config_.delay_periods) + static_cast<std::size_t>(periods)];
