@@ -60,7 +60,8 @@ void JointPlan::start(double reading_rad, double velocity_rad_s) noexcept {
   trajectory_.start(begin_plan(reading_rad, begin_rad_s, config_.gravity.at(reading_rad)), begin_rad_s);
 }
 
-// A motion at constant velocity from where the encoder reads `reading_rad`; `torque_Nm` is what the first change of torque is counted from. Where the trajectory, which is ahead, must go on from.
+// A motion at constant velocity from where the encoder reads `reading_rad`; `torque_Nm` is what the first change of torque is counted from.
+// Where the trajectory, which is ahead, must go on from.
 double JointPlan::begin_plan(double reading_rad, double velocity_rad_s, double torque_Nm) noexcept {
   const double motor_rad = by_encoder(config_, planner_.motor_rest_rad(reading_rad), reading_rad);
   plan_ = {};

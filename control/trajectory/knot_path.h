@@ -83,9 +83,6 @@ struct PathDefect {
 
 inline constexpr double kLongestPath_s = 3600.0;
 
-/// Of a path of so many knots. Not real-time.
-PathDefect wrong_count(double count);
-
 /// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, of its speeds, then of the
 /// ways between them; nothing: it can be followed. Not real-time.
 std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits);

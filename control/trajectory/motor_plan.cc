@@ -13,7 +13,7 @@ namespace {
 
 // Two means of one period at least on a spring: else the acceleration steps.
 constexpr int kLeastSpread = 2;
-// Periods.
+// Periods that a plan has rested which begins at rest, and about the most that are counted.
 constexpr int kEver = std::numeric_limits<int>::max() / 2;
 // Of the way to the motion, in a period.
 constexpr double kYield = 0.2;
