@@ -91,6 +91,13 @@ void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
   plant.effects.transmission = transmission;
 }
 
+// Motor and supply are those of the reference joint. Of another nothing is known: it gives what it is ordered.
+bool has_another_motor(const JointConfig& joint, const JointPlantConfig& plant) {
+  const std::string_view gear = joint.plant.gear.view();
+  return (!gear.empty() && gear != catalogue_joint().gear) ||
+         joint.loop.controller.torque_limit_Nm > plant.motor.peak_torque_Nm;
+}
+
 // Of a gear by its name, or of a file. Where neither is given it is the joint's own gear, else that of the reference joint.
 FrictionLaw read_friction(TomlSection& section, const std::filesystem::path& folder,
                           const PlantIdentity& plant, const FrictionLaw& reference) {
@@ -151,6 +158,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, const 
   SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
   begin_with_model(joint, config.plant);
+  if (has_another_motor(joint, config.plant)) config.plant.motor = {};
   // A link that the joint's model does not have: then the model's inertia is not the motor's.
   const bool another = section.has("link") && !joint.loop.controller.link;
   config.plant.joint.inertia_kgm2 =

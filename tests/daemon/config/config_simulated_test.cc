@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a simulated joint with a spring may be, and what its controller may be told of it.
+#include "sim/joint/reference_plant.h"
 #include "tests/daemon/config/config_file_test.h"
 
 namespace strainwave {
@@ -57,6 +58,13 @@ TEST_F(SimulatedConfigTest, IsTheJointsOwnModelWhereNothingElseIsSaid) {
   EXPECT_EQ(flexible.effects.transmission->link_inertia_kgm2, 0.1);
   EXPECT_EQ(flexible.effects.transmission->spring.stiffness_3_Nm_rad, 13000.0);
   EXPECT_EQ(flexible.effects.transmission->damping_Nms_rad, 0.8);
+}
+
+TEST_F(SimulatedConfigTest, HasTheMotorOfTheReferenceJointOnlyWhereItIsThatJoint) {
+  EXPECT_EQ(plant(rigid_with("")).motor.peak_torque_Nm, kReferencePeakTorque_Nm);
+  const std::string another =
+      replaced(replaced(flexible_with(""), "gear_ratio = 50", "gear_ratio = 100"), "csf-17-50", "csf-25-100");
+  EXPECT_TRUE(std::isinf(plant(another).motor.peak_torque_Nm));
 }
 
 TEST_F(SimulatedConfigTest, HasTheFrictionOfItsGearOfAnotherOrOfAFile) {
