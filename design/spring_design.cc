@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "design/spring_design.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -14,8 +15,10 @@ namespace strainwave {
 namespace {
 
 constexpr int kQuarters = 4;  // of a decade of the torque's weight
-// Beyond that of data/tables/csf-17-50-delays.json, the softest shipped gains, a link's swing is not damped.
+// Beyond that of data/tables/csf-17-50-delays.json, the softest shipped gains, a link's swing is not damped. Its motor and heaviest link are
+// kSoftestInertia_kgm2; a lighter joint's torque counts as much more as it takes less of it.
 constexpr double kSoftestWeight = 1e-5;
+constexpr double kSoftestInertia_kgm2 = 0.389;
 constexpr int kNarrowings = 2;
 // Of the motor's inertia, to both sides: data sheets and identification are mostly within the first.
 constexpr std::array kMotorShares{0.05, 0.02};
@@ -31,6 +34,8 @@ std::string range_text(const BoxRange& range) {
 SpringDesign search(Controller controller, TableRequest request, const std::string& gear,
                     const SpringRequest& spring, const DesignProgress& progress) {
   const double first = request.design.weights.torque;
+  const double lighter = std::max(1.0, kSoftestInertia_kgm2 / request.design.plant.inertia_kgm2);
+  const double softest = kSoftestWeight * lighter * lighter;
   SpringVerdict verdict;
   const auto try_weight = [&](int quarters) {
     request.design.weights.torque = first * std::pow(10.0, static_cast<double>(quarters) / kQuarters);
@@ -53,7 +58,7 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
   while (!verdict.certified) {
     refused = certified;
     certified += kQuarters;
-    if (10.0 * request.design.weights.torque > 1.001 * kSoftestWeight)
+    if (10.0 * request.design.weights.torque > 1.001 * softest)
       throw NotAchieved(
           "gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
           " kg m2, with torque weights of " + number_text(first) + " to " +
