@@ -13,6 +13,9 @@ namespace strainwave {
 
 namespace {
 
+// A current loop of 0.5 ms takes a twentieth of the shaken torque's peaks.
+constexpr double kGiven = 0.9;
+
 constexpr std::array<const char*, 6> kNames{"identity", "direction", "breakaway",
                                             "friction", "motion",    "comparison"};
 
@@ -41,6 +44,23 @@ std::string text_of(const CommissionValue& value) {
       value.configured ? fmt::format("{:.4g} configured, ", *value.configured) : "";
   return fmt::format("{} {}{} {} measured, {:.4g} used", value.key, configured, text_of(value.measured),
                      value.unit, value.used);
+}
+
+/// An order that is cut off looks like a heavier joint.
+std::string find_torque_that_is_not_given(const JointTrace& trace) {
+  double ordered_Nm = 0.0;
+  double given_Nm = 0.0;
+  bool measured = false;
+  for (const JointSample& sample : trace.samples) {
+    if (!std::isfinite(sample.torque_applied_Nm)) continue;
+    measured = true;
+    ordered_Nm = std::max(ordered_Nm, std::abs(sample.torque_ordered_Nm));
+    given_Nm = std::max(given_Nm, std::abs(sample.torque_applied_Nm));
+  }
+  if (!measured || given_Nm >= kGiven * ordered_Nm) return "";
+  return fmt::format(
+      "the drive gave at most {:.1f} of the {:.1f} N.m ordered: set torque_limit_Nm to what it can give",
+      given_Nm, ordered_Nm);
 }
 
 /// Of what a table needs.
@@ -146,6 +166,7 @@ std::string Commissioning::finish() {
     else  // the joint rests where the two meet
       kept.samples.insert(kept.samples.end(), trace.samples.begin(), trace.samples.end());
     if (failure.empty()) failure = excitation_->problem();
+    if (failure.empty()) failure = find_torque_that_is_not_given(trace);
     excitation_.reset();
   }
   // What was seen before an abort may be of one direction or speed alone: only a whole step gives results.
@@ -188,6 +209,10 @@ std::string Commissioning::evaluate() {
 }
 
 std::string Commissioning::find_which_way() {
+  if (!record_.temperature_C) {
+    record_.problem = "no temperature came, and friction is measured at one: connect the sensor";
+    return "";
+  }
   const std::optional<int> direction = find_direction(ramps_);
   if (!direction)
     record_.problem = "the motion is too small to show which way the torque acts: is a brake shut?";
@@ -226,7 +251,9 @@ std::string Commissioning::find_motion() {
   const std::optional<MotionEstimates> found = fit_motion(strokes_, config_.told);
   if (!found) {
     record_.problem =
-        "the motion was too even to show the inertia: give a larger range, speed or torque limit";
+        "no joint like the configured one explains the motion: check gear and gear_ratio; else the motion "
+        "was too "
+        "even: give a larger range, speed or torque limit";
     return "";
   }
   record_.values = compare_with(config_.configured, *found);

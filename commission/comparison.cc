@@ -15,11 +15,13 @@ namespace strainwave {
 namespace {
 
 constexpr double kMostFactor = 1.3;
-// Factors of several numbers that one cause explains agree to this.
-constexpr double kSameFactor = 1.15;
+// Factors of several numbers that one cause explains agree to this: the stiffness of a gear of another ratio is up to 1.3 times its ratio squared.
+constexpr double kSameFactor = 1.3;
 // A delay is configured in whole periods.
 constexpr double kDelayTolerance_periods = 0.75;
 constexpr double kZeroTolerance_rad = 0.3;
+// Half an interval, of a gravity that is believed. Joints without any show up to 2.5 N.m, known to 0.4 of it at best.
+constexpr double kGravityKnownShare = 0.25;
 
 constexpr const char* kMotorKey = "motor_inertia_kgm2";
 constexpr const char* kLoadKey = "load_inertia_kgm2";
@@ -71,7 +73,7 @@ std::vector<CommissionValue> compare_with(const ConfiguredNumbers& configured,
       IntervalEstimate{motion.delay_s.value / period_s, motion.delay_s.half_width_95 / period_s});
   values.back().used = std::round(values.back().measured.value);
   const IntervalEstimate& gravity = motion.gravity_Nm;
-  if (gravity.half_width_95 < 0.5 * gravity.value) {
+  if (gravity.half_width_95 < kGravityKnownShare * gravity.value) {
     const std::optional<GravityLoad>& told = configured.gravity;
     add("control.gravity_Nm", "N.m", told ? std::optional(told->torque_Nm) : std::nullopt, gravity);
     add(kZeroKey, "rad", told ? std::optional(told->zero_rad) : std::nullopt,

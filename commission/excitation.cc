@@ -259,7 +259,7 @@ void Excitation::record(const ActuatorReading& reading, double torque_Nm) {
   sample.motor_position_rad = reading.joint_position_rad;
   if (reading.has_link_position) sample.link_position_rad = reading.link_position_rad;
   sample.torque_ordered_Nm = torque_Nm;
-  sample.torque_applied_Nm = reading.torque_applied_Nm;
+  if (reading.torque_measured) sample.torque_applied_Nm = reading.torque_applied_Nm;
   if (reading.has_temperature) sample.temperature_C = reading.temperature_C;
   trace_.samples.push_back(sample);
 }

@@ -13,8 +13,8 @@ struct JointSample {
   double motor_position_rad = 0.0;                                      ///< accumulated, at the joint's scale
   double link_position_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no encoder on the link
   double torque_ordered_Nm = 0.0;
-  double torque_applied_Nm =
-      0.0;  ///< in the period before, as the drive says; the order where it does not measure
+  /// In the period before, as the drive measures it; NaN: it does not.
+  double torque_applied_Nm = std::numeric_limits<double>::quiet_NaN();
   double temperature_C = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
 };
 

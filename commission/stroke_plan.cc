@@ -15,10 +15,12 @@ namespace {
 constexpr double kMargin = 0.1;
 constexpr int kSpeeds = 4;
 constexpr int kShakenStrokes = 20;
-// Steady strokes last at most so long, and at least these motor turns.
+// Strokes last at most so long, and at least these motor turns.
 constexpr double kLongestStroke_s = 4.0;
 constexpr double kLeastTurns = 2.3;
 constexpr double kTopSpeedShare = 0.6;  // of the speed limit
+// Sliding speeds. The first strokes are at three of them, and five standard deviations of their swing take as much again.
+constexpr double kLeastSpeed = 6.0;
 
 /// Planned positions have this from the limits.
 double margin_rad(const ExcitationLimits& limits) {
@@ -47,31 +49,41 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
     throw InputError("joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
                      "must be at least " + std::to_string(kLeastTurns * turn_rad / (1.0 - 2.0 * kMargin)) +
                          " rad above position_min_rad: the motor must turn twice");
+  const double least_rad_s = kLeastSpeed * sliding_speed_rad_s(config.gear_ratio);
+  if (limits.speed_rad_s < least_rad_s)
+    throw InputError(
+        "joint.limits", "speed_limit_rad_s", std::to_string(limits.speed_rad_s),
+        "must be at least " + std::to_string(least_rad_s) + " rad/s: below, the motor sticks and slips");
   const double slowest = 1.5 * sliding_speed_rad_s(config.gear_ratio);
   const double fastest = std::min(kTopSpeedShare * limits.speed_rad_s,
                                   std::sqrt(0.25 * limits.acceleration_rad_s2 * (high - low)));
   if (fastest < 1.2 * slowest)
-    throw InputError("joint.limits", "speed_limit_rad_s", std::to_string(limits.speed_rad_s),
-                     "must be at least " + std::to_string(1.2 * slowest / kTopSpeedShare) +
-                         " rad/s: below, the motor sticks and slips");
+    throw InputError("joint.limits", "acceleration_rad_s2", std::to_string(limits.acceleration_rad_s2),
+                     "must be larger, or the range between the position limits: the motor sticks and slips "
+                     "below " +
+                         std::to_string(1.2 * slowest) + " rad/s");
   std::vector<Stroke> strokes;
   if (config.part == ExcitationPart::kRamps) return strokes;
   const double middle = 0.5 * (low + high);
+  const auto way_at = [&](double speed_rad_s) {
+    return std::min(high - low, std::max(kLeastTurns * turn_rad, speed_rad_s * kLongestStroke_s) +
+                                    speed_rad_s * speed_rad_s / limits.acceleration_rad_s2);
+  };
   // Slowly and gently first: the inertia that this shows is needed to turn round in time.
-  for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
+  for (const double side : {0.5, -0.5})
+    strokes.push_back({middle + side * way_at(2.0 * slowest), 2.0 * slowest, true});
   const int speeds = config.part == ExcitationPart::kShakenStrokes ? 0 : kSpeeds;
   for (int i = 0; i < speeds; ++i) {
     const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kSpeeds - 1));
-    const double ramps = speed * speed / limits.acceleration_rad_s2;
-    const double way =
-        std::min(high - low, std::max(kLeastTurns * turn_rad, speed * kLongestStroke_s) + ramps);
+    const double way = way_at(speed);
     strokes.push_back({middle - 0.5 * way, speed, false});
     strokes.push_back({middle + 0.5 * way, speed, false});
     strokes.push_back({middle - 0.5 * way, speed, false});
   }
   const int shaken = config.part == ExcitationPart::kSteadyStrokes ? 0 : kShakenStrokes;
+  const double shaken_rad_s = shaken_speed_rad_s(config, high - low);
   for (int i = 0; i < shaken; ++i)
-    strokes.push_back({i % 2 == 0 ? high : low, shaken_speed_rad_s(config, high - low), true});
+    strokes.push_back({middle + (i % 2 == 0 ? 0.5 : -0.5) * way_at(shaken_rad_s), shaken_rad_s, true});
   return strokes;
 }
 

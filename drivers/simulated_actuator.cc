@@ -67,6 +67,7 @@ ActuatorReading SimulatedActuator::read(std::int64_t now_ns) noexcept {
   reading.has_link_position = plant_.has_link_encoder();
   reading.link_position_rad = plant_.measured_link_position_rad() - encoder_zero_rad_;
   reading.torque_applied_Nm = plant_.applied_torque_Nm();
+  reading.torque_measured = true;
   reading.temperature_C = temperature_C_;
   reading.temperature_produced_ns = temperature_produced_ns_;
   reading.has_temperature = true;

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "base/input_error.h"
+#include "commission/motion_spans.h"
 #include "tests/commission/random_joints.h"
 
 namespace strainwave::testing {
@@ -160,6 +161,22 @@ TEST(Excitation, DisablesAJointThatSpeedsUpWhileItIsBraked) {
   }
   EXPECT_TRUE(excitation.ended());
   EXPECT_LT(most_rad_s, from_rad_s + 0.5 * joint.excitation.limits.speed_rad_s);
+}
+
+TEST(Excitation, OfASlowJointWithAWideRangeEndsInThreeMinutesOrIsRefused) {
+  ExcitationConfig config = random_joint(2).excitation;
+  config.limits.position_min_rad = config.start_rad - 3.0;
+  config.limits.position_max_rad = config.start_rad + 3.0;
+  config.limits.speed_rad_s = 6.1 * sliding_speed_rad_s(config.gear_ratio);
+  double from_rad = config.start_rad;
+  double way_s = 0.0;
+  for (const Stroke& stroke : plan_strokes(config)) {
+    way_s += std::abs(stroke.to_rad - from_rad) / stroke.speed_rad_s;
+    from_rad = stroke.to_rad;
+  }
+  EXPECT_LT(way_s, 0.9 * config.longest_s) << "turning round takes time as well";
+  config.limits.speed_rad_s = 5.9 * sliding_speed_rad_s(config.gear_ratio);
+  EXPECT_THROW(plan_strokes(config), InputError);
 }
 
 TEST(Excitation, RefusesLimitsThatAreTooNarrowForTwoMotorTurns) {
