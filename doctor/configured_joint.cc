@@ -39,6 +39,8 @@ void read_inertia(TomlSection& joint, ConfiguredJoint& told) {
   link.link_inertia_kgm2 = joint.number("load_inertia_kgm2", kPositive);
   link.damping_Nms_rad = joint.number_or("damping_Nms_rad", 0.0, kNotNegative);
   link.spring = read_spring(joint);
+  if (joint.has("gear"))
+    link.lost_motion_rad = kUsualLostMotion * find_gear(joint.text("gear"))->lost_motion_rad;
   told.inertia_kgm2 = link.motor_inertia_kgm2 + link.link_inertia_kgm2;
   told.link = link;
 }

@@ -12,12 +12,16 @@
 
 namespace strainwave {
 
+/// Of the catalogue's lost motion: with it joints that have 0.5 to 1 of that show their stiffness best (doctor_study 1 50).
+inline constexpr double kUsualLostMotion = 0.6;
+
 struct ConfiguredLink {
   double motor_inertia_kgm2 = 0.0;  ///< > 0
   double link_inertia_kgm2 = 0.0;   ///< > 0
   TorsionSpring spring;
   double damping_Nms_rad = 0.0;   ///< >= 0
   bool measured_at_link = false;  ///< the position is the link's
+  double lost_motion_rad = 0.0;   ///< of the gear, from side to side; 0: not known
 };
 
 /// What is empty is not known.

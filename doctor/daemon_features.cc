@@ -97,29 +97,46 @@ void add_timing(const Evidence& evidence, Features& features) {
   features[Feature::kLoopFault] = Observation{late ? 1.0 : 0.0, 0.1, text};
 }
 
-void add_clock(const Evidence& evidence, Features& features) {
-  std::vector<double> lead_s;  // of the sender's clock before the loop's
-  std::vector<double> at_s;
+/// The least lead of the sender's clock over the loop's, of each half second: what is late looks as if it were ahead, a clock that jumps stays there.
+std::vector<double> least_leads_s(const Evidence& evidence, double block_s) {
+  std::vector<double> least_s;
+  double ends_s = 0.0;
   for (const DoctorSample& sample : evidence.samples) {
     if (sample.utime == 0) continue;
-    at_s.push_back(static_cast<double>(sample.cycle - evidence.samples.front().cycle) * evidence.period_s);
-    lead_s.push_back(1e-6 * static_cast<double>(sample.utime - evidence.samples.front().utime) - at_s.back());
+    const double at_s =
+        static_cast<double>(sample.cycle - evidence.samples.front().cycle) * evidence.period_s;
+    const double lead_s = 1e-6 * static_cast<double>(sample.utime - evidence.samples.front().utime) - at_s;
+    if (least_s.empty() || at_s >= ends_s) {
+      least_s.push_back(lead_s);
+      ends_s = at_s + block_s;
+    }
+    least_s.back() = std::min(least_s.back(), lead_s);
   }
-  constexpr double kLeast_s = 2.0;
-  if (at_s.size() < 10 || at_s.back() < kLeast_s) {
+  return least_s;
+}
+
+void add_clock(const Evidence& evidence, Features& features) {
+  constexpr double kBlock_s = 0.5;
+  constexpr std::size_t kLeastBlocks = 4;
+  const std::vector<double> lead_s = least_leads_s(evidence, kBlock_s);
+  if (lead_s.size() < kLeastBlocks) {
     features.not_judged.emplace_back(
         "clocks: the recording has no time of the sender, or lasts less than 2 s");
     return;
   }
   double jumps_s = 0.0;
-  double jumped_s = 0.0;
+  double drift_s = 0.0;
+  double drifted_s = 0.0;
   for (std::size_t i = 1; i < lead_s.size(); ++i) {
     const double step_s = lead_s[i] - lead_s[i - 1];
-    if (std::abs(step_s) < kJumpTolerance_s) continue;
-    jumps_s = std::max(jumps_s, std::abs(step_s));
-    jumped_s += step_s;
+    if (std::abs(step_s) < kJumpTolerance_s) {
+      drift_s += step_s;
+      drifted_s += kBlock_s;
+    } else {
+      jumps_s = std::max(jumps_s, std::abs(step_s));
+    }
   }
-  const double rate = (lead_s.back() - jumped_s) / at_s.back();
+  const double rate = drifted_s > 0.0 ? drift_s / drifted_s : 0.0;
   features[Feature::kClockRate] =
       Observation{rate, kClockTolerance,
                   fmt::format("the clock of the daemon's messages goes {:+.2f} % against the loop's periods",

@@ -99,6 +99,8 @@ std::vector<double> link_acceleration(const std::vector<double>& drive_rad,
   acceleration.reserve(drive_rad.size());
   double link_rad = drive_rad.front() - told.spring.angle_rad(load_Nm.front() / scale);
   double link_rad_s = 0.0;
+  double lost_rad = 0.0;
+  const double half_lost_rad = 0.5 * told.lost_motion_rad;
   const auto substeps = static_cast<int>(std::ceil(step_s / 2.5e-4));
   const double dt = step_s / substeps;
   for (std::size_t k = 0; k < drive_rad.size(); ++k) {
@@ -107,9 +109,13 @@ std::vector<double> link_acceleration(const std::vector<double>& drive_rad,
     const double before_rad_s = link_rad_s;
     for (int i = 0; i < substeps; ++i) {
       const double wind_up_rad = drive_rad[k] + drive_rad_s * dt * (i + 0.5) - link_rad;
-      const double torque_Nm = scale * told.spring.torque_Nm(wind_up_rad) +
-                               std::sqrt(scale) * told.damping_Nms_rad * (drive_rad_s - link_rad_s) -
-                               load_Nm[k];
+      const double bent_rad = dt * (drive_rad_s - link_rad_s);
+      if (half_lost_rad > 0.0)
+        lost_rad = std::clamp(lost_rad + bent_rad - std::abs(bent_rad) * lost_rad / half_lost_rad,
+                              -half_lost_rad, half_lost_rad);
+      const double torque_Nm =
+          scale * (told.spring.torque_Nm(wind_up_rad) + told.spring.stiffness_1_Nm_rad * lost_rad) +
+          std::sqrt(scale) * told.damping_Nms_rad * (drive_rad_s - link_rad_s) - load_Nm[k];
       link_rad_s += dt * torque_Nm / told.link_inertia_kgm2;
       link_rad += dt * link_rad_s;
     }

@@ -27,7 +27,8 @@ struct Stretch {
 std::vector<Stretch> controlled_stretches(const Evidence& evidence);
 
 /// Acceleration of a link that hangs on `told`'s spring times `scale`, where the motor's side of the spring is at `drive_rad` and
-/// `load_Nm` holds the link back.
+/// `load_Nm` holds the link back. Within the lost motion h a sliding element stiffens the spring (commission/motion_model.h):
+///   torque = scale (spring(x) + K1 z),   z' = x' - |x'| z / (h / 2)
 std::vector<double> link_acceleration(const std::vector<double>& drive_rad,
                                       const std::vector<double>& load_Nm, double step_s,
                                       const ConfiguredLink& told, double scale);

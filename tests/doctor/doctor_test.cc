@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "doctor/causes.h"
@@ -89,6 +90,27 @@ TEST(Doctor, NamesNoRealTimeOnlyWhereTheDaemonFaultedForIt) {
   const Diagnosis diagnosis = diagnose(evidence);
   ASSERT_FALSE(diagnosis.findings.empty());
   EXPECT_EQ(diagnosis.findings.front().cause, "no real time");
+}
+
+/// What diagnose() names of a healthy joint whose sender's clock is `ahead_s` of the loop's after so many cycles.
+std::string named_with_clock(const std::function<double(std::int64_t)>& ahead_s) {
+  Evidence evidence = swinging({}, 1);
+  for (DoctorSample& sample : evidence.samples)
+    sample.utime = 1'000'000'000 + sample.cycle * 1000 + std::llround(1e6 * ahead_s(sample.cycle));
+  std::string names;
+  for (const Finding& finding : diagnose(evidence).findings) names += std::string(finding.cause) + "\n";
+  return names;
+}
+
+TEST(Doctor, TellsAClockThatJumpsFromMessagesThatAreLate) {
+  const std::string clock = "clock trouble\n";
+  EXPECT_EQ(named_with_clock([](std::int64_t cycle) { return cycle < 6000 ? 0.0 : 0.3; }), clock);
+  EXPECT_EQ(named_with_clock([](std::int64_t cycle) { return 1e-5 * static_cast<double>(cycle); }), clock);
+  EXPECT_EQ(named_with_clock([](std::int64_t cycle) {
+              const std::int64_t since = cycle % 700;  // held up for 60 ms, then sent one by one
+              return since < 60 ? 1e-3 * static_cast<double>(60 - since) : 0.0;
+            }),
+            "");
 }
 
 TEST(Doctor, SeesTheDelayInTorqueThatTheDriveMeasures) {

@@ -57,6 +57,8 @@ BenchJoint healthy_joint(Dice& dice, bool flexible) {
                                                                  dice.between(0.0, 2e-4)};
     plant.effects.transmission->spring = plant.effects.transmission->spring.scaled(dice.between(0.92, 1.08));
     plant.effects.transmission->link_inertia_kgm2 *= dice.between(0.95, 1.05);
+    plant.effects.transmission->lost_motion.width_rad =
+        dice.between(0.5, 1.0) * find_gear("csf-17-50")->lost_motion_rad;
   } else {
     plant.joint.inertia_kgm2 *= dice.between(0.95, 1.05);
   }
@@ -283,8 +285,12 @@ Patient random_patient(const std::string& cause, int index) {
   told.gravity = GravityLoad{};
   told.friction = patient.table->friction;
   if (const auto& link = patient.loop.controller.link)
-    told.link = ConfiguredLink{link->motor_inertia_kgm2, link->link_inertia_kgm2,
-                               find_gear("csf-17-50")->spring, link->damping_Nms_rad};
+    told.link = ConfiguredLink{link->motor_inertia_kgm2,
+                               link->link_inertia_kgm2,
+                               find_gear("csf-17-50")->spring,
+                               link->damping_Nms_rad,
+                               false,
+                               kUsualLostMotion * find_gear("csf-17-50")->lost_motion_rad};
   // Half of the daemons run on a desktop, as a newcomer's does.
   patient.real_time = index % 4 >= 2;
   if (!patient.real_time) patient.stall_share = 0.002;
