@@ -59,12 +59,13 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
     refused = certified;
     certified += kQuarters;
     if (10.0 * request.design.weights.torque > 1.001 * softest)
-      throw NotAchieved(
-          "gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
-          " kg m2, with torque weights of " + number_text(first) + " to " +
-          number_text(request.design.weights.torque) +
-          ". Narrow --load-inertia_kgm2 or --motor-inertia_kgm2, or give a --damping_Nms_rad above 0. " +
-          verdict.text);
+      throw NotAchieved("gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
+                        " kg m2, with torque weights of " + number_text(first) + " to " +
+                        number_text(request.design.weights.torque) +
+                        ". Narrow --load-inertia_kgm2 or --motor-inertia_kgm2, or " +
+                        (spring.damping_Nms_rad.from > 0.0 ? "take a drive with less --delay. "
+                                                           : "give a --damping_Nms_rad above 0. ") +
+                        verdict.text);
     best.table = try_weight(certified);
   }
   best.text = verdict.text;
