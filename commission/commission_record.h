@@ -23,6 +23,9 @@ struct CommissionStep {
   double time_s = 0.0;  ///< of the joint's time that it took, >= 0
 };
 
+/// A table has whole delays, two at most, whose gains bear a quarter more (client/commands/commission_design.cc).
+inline constexpr double kMostDelay_periods = 2.25;
+
 /// A number of the configuration, or one that has no key there.
 struct CommissionValue {
   std::string key;  ///< relative to the joint's section, "motor_inertia_kgm2"; a name where there is no key

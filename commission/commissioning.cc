@@ -237,7 +237,9 @@ std::string Commissioning::find_friction_over_speed() {
   record_.friction = find_friction(strokes_, friction_search(config_.told.gear_ratio, std::nullopt));
   if (record_.friction.empty()) {
     record_.problem =
-        "no stretch of steady speed was long enough: give a larger range between the position limits";
+        "no stretch of steady speed was long enough: give a larger range between the position limits, attach "
+        "the "
+        "load, or take away a weight that friction hardly holds";
     return "";
   }
   std::string text = "measured, before the inertia is known:";
@@ -267,8 +269,9 @@ std::string Commissioning::find_motion() {
                      found->delay_s.value + 0.5 * strokes_.period_s};
   else
     record_.problem = fmt::format(
-        "{}: not known to 5 %, since the motion was too small: give a larger range between the position "
-        "limits, or a larger speed or torque limit",
+        "{}: not known to 5 %, since the link hardly swings: give a larger range, speed or torque limit, or "
+        "attach "
+        "the load; a load below a third of the motor's inertia takes them from data sheets",
         missing_in(*found));
   // Again, without the torque that changed the speed, where the steady strokes are of this run.
   if (const std::vector<FrictionAtSpeed> friction =
@@ -282,6 +285,7 @@ std::string Commissioning::find_motion() {
 
 std::string Commissioning::compare() {
   record_.problem = find_wrong(record_.values, config_.told.gear_ratio);
+  if (record_.problem.empty()) record_.problem = find_late(record_.values);
   return "no configured number differs by 30 % from what is measured";
 }
 

@@ -106,6 +106,16 @@ bool differs(const CommissionValue& value) {
          kMostFactor * configured < measured.value - measured.half_width_95;
 }
 
+std::string find_late(const std::vector<CommissionValue>& values) {
+  for (const CommissionValue& value : values)
+    if (value.unit == kPeriods && value.measured.value > kMostDelay_periods)
+      return fmt::format(
+          "{}: {:.2f} periods are measured, and a table is for {:g} at most: make the drive answer "
+          "sooner, or daemon.period_s longer",
+          value.key, value.measured.value, kMostDelay_periods);
+  return "";
+}
+
 std::string find_wrong(const std::vector<CommissionValue>& values, double gear_ratio) {
   if (const std::optional<double> factor = wrong_scale(values))
     return fmt::format(

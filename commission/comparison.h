@@ -35,4 +35,7 @@ bool differs(const CommissionValue& value);
 /// one factor, it is torque or position that has the wrong scale.
 std::string find_wrong(const std::vector<CommissionValue>& values, double gear_ratio);
 
+/// Says so where the measured delay is longer than a table can have; empty where it is not.
+std::string find_late(const std::vector<CommissionValue>& values);
+
 }  // namespace strainwave

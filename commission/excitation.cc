@@ -40,6 +40,8 @@ constexpr double kLongestBraking_s = 1.5;
 constexpr double kRunsAway = 0.25;
 // Of the torque limit: a joint that sticks at this much is blocked.
 constexpr double kBlocked = 0.95;
+// Of the torque limit: less does not turn a joint that friction holds.
+constexpr double kFalls = 0.01;
 
 }  // namespace
 
@@ -144,6 +146,11 @@ double Excitation::ramp_Nm(double position_rad) {
     return 0.0;
   }
   if (std::abs(quick_rad_s_) < sliding_speed_rad_s(config_.gear_ratio)) return torque;
+  if (quick_rad_s_ * way < 0.0 && std::abs(torque) < kFalls * config_.limits.torque_Nm) {
+    abort(fmt::format("the joint falls, or is moved: at {:.2f} N.m it goes the other way at {:.4f} rad",
+                      torque, position_rad));
+    return 0.0;
+  }
   if (quick_rad_s_ * way < 0.0) {
     abort(fmt::format(
         "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad; a load that falls does so, too",

@@ -172,6 +172,8 @@ std::optional<MotionEstimates> fit_motion(const JointTrace& trace, const ToldJoi
   found.delay_s = of([](const MotionVector& v) { return v[kDelay] + std::exp(v[kLogLag]); });
   found.motor_inertia_kgm2 = if_known(exp_of(kLogMotorInertia, 1.0), kKnownShare);
   found.link_inertia_kgm2 = if_known(exp_of(kLogLinkInertia, 1.0), kKnownShare);
+  // A link that does not show is taken for the motor's.
+  if (!found.link_inertia_kgm2) found.motor_inertia_kgm2.reset();
   if (if_known(exp_of(kLogLostMotion, 1.0), kLostMotionShare))
     found.stiffness_1_Nm_rad = if_known(exp_of(kLogStiffness, K1), kKnownShare);
   found.damping_Nms_rad = if_known(exp_of(kLogDamping, 1.0), kDampingShare);

@@ -46,9 +46,10 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
                      "must be within " + std::to_string(low) + " to " + std::to_string(high) +
                          " rad, a tenth inside of joint.limits: move the joint there");
   if (high - low < kLeastTurns * turn_rad)
-    throw InputError("joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
-                     "must be at least " + std::to_string(kLeastTurns * turn_rad / (1.0 - 2.0 * kMargin)) +
-                         " rad above position_min_rad: the motor must turn twice");
+    throw InputError(
+        "joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
+        "must be at least " + std::to_string(kLeastTurns * turn_rad / (1.0 - 2.0 * kMargin)) +
+            " rad above position_min_rad: 2.3 turns of the motor, and a tenth of the range at each end");
   const double least_rad_s = kLeastSpeed * sliding_speed_rad_s(config.gear_ratio);
   if (limits.speed_rad_s < least_rad_s)
     throw InputError(

@@ -58,7 +58,7 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
   while (!verdict.certified) {
     refused = certified;
     certified += kQuarters;
-    if (10.0 * request.design.weights.torque > 1.001 * softest)
+    if (request.design.weights.torque > 0.999 * softest)
       throw NotAchieved("gains: no gains are certified for links of " + range_text(spring.link_inertia_kgm2) +
                         " kg m2, with torque weights of " + number_text(first) + " to " +
                         number_text(request.design.weights.torque) +

@@ -81,7 +81,7 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
     features.not_judged.emplace_back(
         evidence.samples.back().fault != 0
             ? "inertia: the fault ended the motion too early to show it"
-            : fmt::format("inertia: {:.1f} rad/s2 show it to {:.0f} % only; allow {:.1f} rad/s2",
+            : fmt::format("inertia: {:.1f} rad/s2 show it to {:.0f} % only; {:.1f} rad/s2 are needed",
                           fit.acceleration_rad_s2, 100.0 * share,
                           fit.acceleration_rad_s2 * share / kInertiaKnownShare));
   else
@@ -132,7 +132,7 @@ void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& fea
     features.not_judged.push_back(counts >= kLeastWindUp_counts
                                       ? "stiffness: the motion does not show it"
                                       : fmt::format("stiffness: at {:.1f} rad/s2 the gear winds up by {:.1f} "
-                                                    "counts only; allow {:.1f} rad/s2",
+                                                    "counts only; {:.1f} rad/s2 are needed",
                                                     fit.acceleration_rad_s2, counts,
                                                     fit.acceleration_rad_s2 * kLeastWindUp_counts / counts));
     return;
@@ -216,8 +216,10 @@ void add_motion_features(const Evidence& evidence, Features& features) {
   // A swing is no sliding that shows friction. A rigid joint's shows its inertia; a flexible one's is of motor, link and spring at once.
   const bool chattered = evidence.chattered();
   if (chattered)
-    features.not_judged.emplace_back(fmt::format("{}friction: torque oscillated until the fault",
-                                                 evidence.told.link ? "inertia and " : ""));
+    features.not_judged.emplace_back(
+        fmt::format("{}friction: torque oscillated until the fault, as with a longer delay, another "
+                    "stiffness or another load than configured",
+                    evidence.told.link ? "inertia and " : ""));
   if (!chattered || !evidence.told.link) add_inertia(evidence, *fit, features);
   if (!chattered) add_friction(evidence, *fit, features);
   add_delay(evidence, *fit, features);

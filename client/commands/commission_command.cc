@@ -58,9 +58,10 @@ class CommissionRun {
 
   std::string first_motion() const {
     return fmt::format(
-        "  strainwaved --config {0} &\n  strainwavectl enable {1}\n  strainwavectl move {1} {2:.4g} "
+        "  strainwaved --config {0} &\n  strainwavectl {3}enable {1}\n  strainwavectl {3}move {1} {2:.4g} "
         "--speed-limit_rad_s 0.1 --wait",
-        shell_word(configuration().string()), shell_word(arguments_.joint), joint_.first_target_rad);
+        shell_word(configuration().string()), shell_word(arguments_.joint), joint_.first_target_rad,
+        joint_.prefix == "SW" ? "" : "--prefix " + shell_word(joint_.prefix) + " ");
   }
 
   /// What to type after a step failed: measuring goes on with the whole of it.

@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "base/toml_section.h"
 #include "control/joint/gear_catalogue.h"
+#include "control/table/certified_box.h"
 
 namespace strainwave {
 
@@ -20,6 +21,7 @@ constexpr double kLinkShare = 0.1;
 constexpr double kStiffnessShare = 0.02;
 constexpr double kDampingShare = 1.0 / 3.0;
 constexpr double kNextPeriod = 0.25;
+static_assert(kMostDelay_periods == kMaxBoxDelay + kNextPeriod);
 constexpr double kFirstMotion_rad = 0.1;
 // As a number is in the configuration and in the table: digits that mean something.
 constexpr int kDigits = 5;
@@ -52,7 +54,9 @@ std::string range(const CommissionValue& value, double share) {
 JointToDesign read_joint_to_design(const std::filesystem::path& config, const std::string& name) {
   TomlSection file = TomlSection::read(config);
   JointToDesign found;
-  found.period_s = file.section_or_empty("daemon").number_or("period_s", 1e-3, kPositive);
+  TomlSection daemon = file.section_or_empty("daemon");
+  found.period_s = daemon.number_or("period_s", 1e-3, kPositive);
+  found.prefix = daemon.text_or("prefix", found.prefix);
   for (TomlSection& joint : file.sections("joint")) {
     if (joint.text("name") != name) continue;
     if (joint.text_or("model", "") != "flexible" || !joint.has("gear"))

@@ -25,6 +25,11 @@ constexpr double kArrived_rad = 1e-3;
 
 void require_holding(const JointView& view, const std::string& joint) {
   const auto mode = static_cast<Mode>(view.state.mode);
+  if (mode == Mode::kFaulted)
+    throw ClientError(ExitStatus::kRefused,
+                      fmt::format("{0}: is faulted: strainwavectl clear-fault {0} once its cause is gone; "
+                                  "strainwavectl doctor --log judges its flight record",
+                                  joint));
   if (mode != Mode::kHolding)
     throw ClientError(ExitStatus::kRefused,
                       fmt::format("{}: is {}, not holding: strainwavectl enable {}, or hold {}", joint,

@@ -61,6 +61,11 @@ void require_commissionable(const JointConfig& joint) {
         joint.name +
         ": joint.homing: a joint that must be homed has no position yet. For this run delete "
         "[joint.homing], set encoder = \"absolute\", and give limits around where the joint stands");
+  if (const Gear& gear = gear_of(joint); controller.torque_limit_Nm > gear.repeated_peak_torque_Nm)
+    throw InputError(joint.name + ": joint.limits", "torque_limit_Nm",
+                     number_text(controller.torque_limit_Nm),
+                     "at most " + number_text(gear.repeated_peak_torque_Nm) +
+                         " is allowed, the repeated peak torque of " + gear.name);
 }
 
 /// Of a real joint.
@@ -81,7 +86,6 @@ ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
                        controller.motion.velocity_rad_s,
                        std::min(kMostAcceleration_rad_s2, controller.motion.acceleration_rad_s2),
                        controller.torque_limit_Nm};
-  excitation.limits.torque_Nm = std::min(excitation.limits.torque_Nm, gear_of(joint).repeated_peak_torque_Nm);
   excitation.limits.temperature_C = joint.loop.limits.temperature_limit_C;
   excitation.period_s = period_s;
   excitation.encoder_resolution_rad = controller.encoder_resolution_rad;

@@ -18,6 +18,14 @@ TEST(Commissioning, NamesNumbersThatTheMotionDoesNotShow) {
       << record.problem;
 }
 
+TEST(Commissioning, EndsWhereTheDelayIsLongerThanThatOfAnyTable) {
+  const auto said_of = [](double periods) {
+    return find_late({{"can.delay_periods", "periods", std::nullopt, {periods, 0.01}, std::round(periods)}});
+  };
+  EXPECT_EQ(said_of(2.2), "");
+  EXPECT_NE(said_of(2.4).find("can.delay_periods: 2.40 periods"), std::string::npos) << said_of(2.4);
+}
+
 TEST(Commissioning, StopsAWrongDirectionBeforeAnythingFaster) {
   const RandomJoint joint = random_joint(2);
   Bench bench(joint);

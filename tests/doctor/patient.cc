@@ -12,6 +12,7 @@
 #include "daemon/realtime/loop/overrun_watch.h"
 #include "doctor/test_motion.h"
 #include "drivers/faulty_actuator.h"
+#include "tests/doctor/dice.h"
 #include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
@@ -20,21 +21,9 @@ namespace {
 
 constexpr double kPeriod_s = 1e-3;
 
-class Dice {
- public:
-  explicit Dice(unsigned seed) : random_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  /// Less by a factor of 1 / high to 1 / low, or more by one of low to high.
-  double off(double low, double high) {
-    const double factor = between(low, high);
-    return between(0.0, 1.0) < 0.5 ? factor : 1.0 / factor;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
+const Gear& gear() {
+  return *find_gear("csf-17-50");
+}
 
 void scale_all(ExponentialTemperatureLaw& law, double scale) {
   for (FrictionParameters* part : {&law.asymptote, &law.amplitude}) {
@@ -57,8 +46,7 @@ BenchJoint healthy_joint(Dice& dice, bool flexible) {
                                                                  dice.between(0.0, 2e-4)};
     plant.effects.transmission->spring = plant.effects.transmission->spring.scaled(dice.between(0.92, 1.08));
     plant.effects.transmission->link_inertia_kgm2 *= dice.between(0.95, 1.05);
-    plant.effects.transmission->lost_motion.width_rad =
-        dice.between(0.5, 1.0) * find_gear("csf-17-50")->lost_motion_rad;
+    plant.effects.transmission->lost_motion.width_rad = dice.between(0.5, 1.0) * gear().lost_motion_rad;
   } else {
     plant.joint.inertia_kgm2 *= dice.between(0.95, 1.05);
   }
@@ -285,12 +273,12 @@ Patient random_patient(const std::string& cause, int index) {
   told.gravity = GravityLoad{};
   told.friction = patient.table->friction;
   if (const auto& link = patient.loop.controller.link)
-    told.link = ConfiguredLink{link->motor_inertia_kgm2,
-                               link->link_inertia_kgm2,
-                               find_gear("csf-17-50")->spring,
-                               link->damping_Nms_rad,
-                               false,
-                               kUsualLostMotion * find_gear("csf-17-50")->lost_motion_rad};
+    told.link = {link->motor_inertia_kgm2,
+                 link->link_inertia_kgm2,
+                 gear().spring,
+                 link->damping_Nms_rad,
+                 false,
+                 kUsualLostMotion * gear().lost_motion_rad};
   // Half of the daemons run on a desktop, as a newcomer's does.
   patient.real_time = index % 4 >= 2;
   if (!patient.real_time) patient.stall_share = 0.002;

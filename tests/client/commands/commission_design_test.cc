@@ -92,6 +92,7 @@ TEST(CommissionDesign, ReadsWhatTheShippedConfigurationSays) {
   EXPECT_EQ(joint.gear, "csf-17-50");
   EXPECT_EQ(joint.joint_model, "rhs17-6006");
   EXPECT_TRUE(joint.homed);
+  EXPECT_EQ(joint.prefix, "SW");
   EXPECT_EQ(joint.first_target_rad, 0.1);
 }
 

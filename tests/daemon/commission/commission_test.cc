@@ -20,10 +20,10 @@ TEST_F(CommissionTest, IsEndedByASignalAndKeepsWhatThereIs) {
   EXPECT_EQ(record().problem, "interrupted by a signal");
 }
 
-TEST_F(CommissionTest, MovesInsideTheLimitsOfConfigurationAndGear) {
+TEST_F(CommissionTest, MovesInsideTheLimitsOfTheConfiguration) {
   const CommissioningConfig config = commissioning_config(read(kArm), 0);
   const ExcitationLimits& limits = config.excitation.limits;
-  EXPECT_EQ(limits.torque_Nm, 34.0) << "the gear's repeated peak torque";
+  EXPECT_EQ(limits.torque_Nm, 34.0);
   EXPECT_EQ(limits.position_max_rad, 0.5);
   EXPECT_EQ(limits.speed_rad_s, 3.0);
   EXPECT_EQ(config.configured.load_inertia_kgm2, 0.1);
@@ -43,6 +43,8 @@ TEST_F(CommissionTest, RefusesWhatItCannotMeasureAndSaysWhy) {
   expect_mentions(refusal(replaced(kArm, "lost_motion_rad = 0.0005", "lost_motion_rad = 0.0")),
                   {"lost_motion_rad = 0", "above 0"});
   expect_mentions(refusal(example("epos4-position.toml")), {"drive_mode"});
+  expect_mentions(refusal(replaced(kArm, "torque_limit_Nm = 34", "torque_limit_Nm = 340")),
+                  {"torque_limit_Nm = 340", "at most 34", "csf-17-50"});
   expect_mentions(testing::refusal_of([&] {
                     (void)commission_joint(read(kArm), folder_ / "c.toml", "wrist", folder_ / "out", out_);
                   }),

@@ -31,7 +31,7 @@ position_max_rad = 0.5
 speed_limit_rad_s = 3.0
 acceleration_rad_s2 = 30
 following_error_rad = 0.1
-torque_limit_Nm = 100
+torque_limit_Nm = 34
 [joint.simulated]
 ambient_temperature_C = "constant:20"
 spring = {damping_Nms_rad = 1.0, lost_motion_rad = 0.0005}
