@@ -201,6 +201,15 @@ TEST_F(DesignProgram, DesignsForAGearByItsNameTheRotorAndTheLoad) {
   EXPECT_NE(output_.find("note: friction: estimate from the catalogue"), std::string::npos) << output_;
 }
 
+TEST_F(DesignProgram, GainsForALightJointMayBeSofter) {
+  ASSERT_EQ(run("gains --gear csf-17-50 --motor-inertia_kgm2 0.0329 --load-inertia_kgm2 0.0828..0.1012 "
+                "--stiffness_Nm_rad 7384..7685 --damping_Nms_rad 0.357..0.715 --delay 1..1 --friction " +
+                kData + "tables/rhs17-6006-friction.json --joint-model light --out " + file("t.json")),
+            0)
+      << output_;
+  EXPECT_GT(read_gain_table(file("t.json")).primary.weights.torque, 1e-5) << "the softest of a heavier joint";
+}
+
 TEST_F(DesignProgram, AsksForTheMotorWhichTheCatalogueOfGearsCannotKnow) {
   const auto refused = [&](const std::string& command, const std::vector<std::string>& mentions) {
     EXPECT_EQ(run(command + " --out " + file("t.json")), 2) << output_;
