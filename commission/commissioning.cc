@@ -238,8 +238,7 @@ std::string Commissioning::find_friction_over_speed() {
   if (record_.friction.empty()) {
     record_.problem =
         "no stretch of steady speed was long enough: give a larger range between the position limits, attach "
-        "the "
-        "load, or take away a weight that friction hardly holds";
+        "the load, or take away a weight that friction hardly holds";
     return "";
   }
   std::string text = "measured, before the inertia is known:";
@@ -254,8 +253,7 @@ std::string Commissioning::find_motion() {
   if (!found) {
     record_.problem =
         "no joint like the configured one explains the motion: check gear and gear_ratio; else the motion "
-        "was too "
-        "even: give a larger range, speed or torque limit";
+        "was too even: give a larger range, speed or torque limit";
     return "";
   }
   record_.values = compare_with(config_.configured, *found);
@@ -270,8 +268,7 @@ std::string Commissioning::find_motion() {
   else
     record_.problem = fmt::format(
         "{}: not known to 5 %, since the link hardly swings: give a larger range, speed or torque limit, or "
-        "attach "
-        "the load; a load below a third of the motor's inertia takes them from data sheets",
+        "attach the load; a load below a third of the motor's inertia takes them from data sheets",
         missing_in(*found));
   // Again, without the torque that changed the speed, where the steady strokes are of this run.
   if (const std::vector<FrictionAtSpeed> friction =

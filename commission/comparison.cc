@@ -15,12 +15,12 @@ namespace strainwave {
 namespace {
 
 constexpr double kMostFactor = 1.3;
-// Factors of several numbers that one cause explains agree to this: the stiffness of a gear of another ratio is up to 1.3 times its ratio squared.
+// Factors of several numbers that one cause explains agree to this: with the ratio the stiffness in data/gears.csv changes, too.
 constexpr double kSameFactor = 1.3;
 // A delay is configured in whole periods.
 constexpr double kDelayTolerance_periods = 0.75;
 constexpr double kZeroTolerance_rad = 0.3;
-// Half an interval, of a gravity that is believed. Joints without any show up to 2.5 N.m, known to 0.4 of it at best.
+// Half an interval, of a gravity that is believed: friction that varies along the way looks like a weight, known to 0.4 of it at best.
 constexpr double kGravityKnownShare = 0.25;
 
 constexpr const char* kMotorKey = "motor_inertia_kgm2";
