@@ -61,7 +61,7 @@ class CommissionRun {
         "  strainwaved --config {0} &\n  strainwavectl {3}enable {1}\n  strainwavectl {3}move {1} {2:.4g} "
         "--speed-limit_rad_s 0.1 --wait",
         shell_word(configuration().string()), shell_word(arguments_.joint), joint_.first_target_rad,
-        joint_.prefix == "SW" ? "" : "--prefix " + shell_word(joint_.prefix) + " ");
+        joint_.prefix == ClientOptions().prefix ? "" : "--prefix " + shell_word(joint_.prefix) + " ");
   }
 
   /// What to type after a step failed: measuring goes on with the whole of it.

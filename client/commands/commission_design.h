@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/protocol/client.h"
 #include "commission/commission_record.h"
 #include "commission/joint_settings.h"
 
@@ -18,7 +19,7 @@ struct JointToDesign {
   double period_s = 0.0;
   bool homed = false;             ///< its configuration may have no gravity
   double first_target_rad = 0.0;  ///< 0.1 rad beyond the middle of its limits, or as far as they allow
-  std::string prefix = "SW";      ///< of its daemon
+  std::string prefix = ClientOptions().prefix;  ///< of its daemon
 };
 /// Throws InputError: no such joint, no gear of the catalogue.
 JointToDesign read_joint_to_design(const std::filesystem::path& config, const std::string& joint);
