@@ -89,8 +89,12 @@ std::string StrictObject::where(const std::string& key) const {
   return source_ + ": " + (path_.empty() ? "" : path_ + ".") + printable(key);
 }
 
+std::string StrictObject::shown(const std::string& key) const {
+  return where(key) + " = " + value_->at(key).dump().substr(0, 60);
+}
+
 void StrictObject::complain(const std::string& key, const std::string& allowed) const {
-  throw InputError(where(key) + " = " + value_->at(key).dump().substr(0, 60) + ": must be " + allowed);
+  throw InputError(shown(key) + ": must be " + allowed);
 }
 
 const ordered_json& StrictObject::get(const std::string& key) {

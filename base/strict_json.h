@@ -43,8 +43,9 @@ class StrictObject {
   /// Accepts a key without reading it.
   void ignore(const std::string& key) { read_.insert(key); }
   void finish() const;
-  /// "source: path.key": what messages begin with.
+  /// "source: path.key": what messages begin with; and with its value.
   std::string where(const std::string& key) const;
+  std::string shown(const std::string& key) const;
 
  private:
   const nlohmann::ordered_json& get(const std::string& key);

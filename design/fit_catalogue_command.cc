@@ -95,7 +95,7 @@ FitRecord make_record(const Job& job, const Fit& fit, const EpgsResult* search) 
   record.cost_source = metric_cost(errors, friction_metric(FitWeighting::kSource, job.data.motor_speeds_rpm));
   record.cost_torque = metric_cost(errors, friction_metric(FitWeighting::kTorque, job.data.motor_speeds_rpm));
   for (Eigen::Index k = 0; k < errors.rows(); ++k) {
-    record.residuals.push_back({targets.temperature_C(k), errors(k, 0), errors(k, 1), errors(k, 2)});
+    record.residuals.push_back({targets.temperature_C(k), {errors(k, 0), errors(k, 1), errors(k, 2)}});
   }
   return record;
 }
@@ -209,14 +209,14 @@ void report(const char* model, const FitRecord& fit) {
 void report_residuals(const char* model, const FitRecord& fit) {
   for (std::size_t parameter = 0; parameter < kParameterNames.size(); ++parameter) {
     double squares = 0.0;
-    const std::vector<double>* worst = &fit.residuals.front();
-    for (const auto& row : fit.residuals) {
-      squares += row[parameter + 1] * row[parameter + 1];
-      if (std::abs(row[parameter + 1]) > std::abs((*worst)[parameter + 1])) worst = &row;
+    const FitResidual* worst = &fit.residuals.front();
+    for (const FitResidual& at : fit.residuals) {
+      squares += at.motor[parameter] * at.motor[parameter];
+      if (std::abs(at.motor[parameter]) > std::abs(worst->motor[parameter])) worst = &at;
     }
     std::printf("  %-12s %-8s residuals: RMS %.3g, largest %.3g at %g degC (%s)\n", model,
                 kParameterNames[parameter], std::sqrt(squares / static_cast<double>(fit.residuals.size())),
-                (*worst)[parameter + 1], worst->front(), parameter == 2 ? "N.cm/RPM" : "N.cm");
+                worst->motor[parameter], worst->temperature_C, parameter == 2 ? "N.cm/RPM" : "N.cm");
   }
 }
 

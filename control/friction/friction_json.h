@@ -1,28 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction as JSON, as it stands in gain tables and in the friction files of strainwave-design fit: at one temperature, over temperature and
-// speed as one law, and as fuzzy rules. Joint side. Not real-time. Whatever reads throws InputError.
+// Friction as JSON (base/json_fields.h), in gain tables and in the friction files of strainwave-design fit. It stands there at one
+// temperature, over temperature and speed as one law, and as fuzzy rules. Joint side. Not real-time.
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
-#include "base/strict_json.h"
+#include "base/json_fields.h"
 #include "control/friction/fuzzy_friction.h"
 
 namespace strainwave {
 
-nlohmann::ordered_json friction_parameters_to_json(const FrictionParameters& parameters);
-/// Reads their keys of `object`, which may have more.
-FrictionParameters friction_parameters_from_json(StrictObject& object);
+template <typename Json>
+void fields(Json& json, FrictionParameters& parameters) {
+  json("static_Nm", parameters.static_Nm);
+  json("coulomb_Nm", parameters.coulomb_Nm);
+  json("viscous_Nms_rad", parameters.viscous_Nms_rad);
+}
 
-/// Reads the law's keys of `object`, which may have more.
-FrictionLaw friction_law_from_json(StrictObject& object);
+template <typename Json>
+void fields(Json& json, FrictionLaw& law) {
+  json("asymptote", law.over_temperature.asymptote);
+  json("amplitude", law.over_temperature.amplitude);
+  json("reference_C", law.over_temperature.reference_C);
+  json("decay_C", law.over_temperature.decay_C);
+  json.require(law.over_temperature.decay_C > 0.0, "decay_C", "above 0");
+  json("stribeck_velocity_rad_s", law.stribeck.velocity_rad_s);
+  json.require(law.stribeck.velocity_rad_s > 0.0, "stribeck_velocity_rad_s", "above 0");
+  json("stribeck_exponent", law.stribeck.exponent);
+  json.require(law.stribeck.exponent >= 0.5, "stribeck_exponent", "at least 0.5");
+}
 
-/// The law of a friction file of strainwave-design fit. It must have one, for this ratio.
+template <typename Json>
+void fields(Json& json, VelocityMemberships& velocity) {
+  json("zero_center_rad_s", velocity.zero_center_rad_s);
+  json("zero_width_rad_s", velocity.zero_width_rad_s);
+  json("high_center_rad_s", velocity.high_center_rad_s);
+  json("high_width_rad_s", velocity.high_width_rad_s);
+}
+
+/// Keys, types and sizes; ranges are find_defect()'s.
+template <typename Json>
+void fields(Json& json, FuzzyFriction& friction) {
+  json("temperature_min_C", friction.temperature_min_C);
+  json("temperature_max_C", friction.temperature_max_C);
+  json("velocity", friction.velocity);
+  json.list("rules", friction.rule_count, 1, kMaxTemperatureRules, [&](auto& entry, std::size_t i) {
+    entry("center_C", friction.rules[i].center_C);
+    entry("width_C", friction.rules[i].width_C);
+    fields(entry, friction.rules[i].friction);
+  });
+}
+
+/// The law of a friction file of strainwave-design fit. It must have one, for this ratio. Throws InputError.
 FrictionLaw read_friction_law(const std::filesystem::path& path, double gear_ratio);
-
-nlohmann::ordered_json fuzzy_friction_to_json(const FuzzyFriction& friction);
-/// Reads what fuzzy_friction_to_json wrote: keys, types and sizes; ranges are find_defect()'s.
-FuzzyFriction fuzzy_friction_from_json(StrictObject object);
 
 }  // namespace strainwave

@@ -46,8 +46,7 @@ std::array<double, 2> turns_of(const Segment& segment) noexcept {
   return {q / j, 2.0 * v / q};
 }
 
-using Found = std::optional<PathDefect>;
-using Kind = PathDefect::Kind;
+using Found = std::optional<std::string>;
 
 /// The limits, one by one, at one place of a path.
 class Judge {
@@ -55,40 +54,39 @@ class Judge {
   Judge(const PathLimits& limits, std::size_t knot) : limits_(limits), knot_(knot) {}
 
   /// `number`: "time_s = ", with its value; `bound`: which it is beyond.
-  PathDefect defect(Kind kind, double time_s, const char* number, double value, double bound,
-                    const std::string& allowed) const {
+  std::string defect(double time_s, const char* number, double value, double bound,
+                     const std::string& allowed) const {
     std::ostringstream text;
     text << "knot " << knot_;
     if (std::isfinite(time_s)) text << " (at " << time_s << " s)";
     text << ": " << number << beyond_text(value, bound) << ": " << allowed;
-    return {kind, text.str()};
+    return text.str();
   }
   Found position(double position_rad, double time_s) const {
     const PositionRange& range = limits_.range;
     if (position_rad < range.min_rad - kAtBound)
-      return defect(Kind::kPosition, time_s, "position_rad = ", position_rad, range.min_rad,
+      return defect(time_s, "position_rad = ", position_rad, range.min_rad,
                     "at least " + bound_text(range.min_rad) + " is allowed (joint.limits.position_min_rad)");
     if (position_rad <= range.max_rad + kAtBound) return std::nullopt;
-    return defect(Kind::kPosition, time_s, "position_rad = ", position_rad, range.max_rad,
+    return defect(time_s, "position_rad = ", position_rad, range.max_rad,
                   at_most(range.max_rad, "position_max_rad"));
   }
   Found speed(double velocity_rad_s, double time_s) const {
-    return above(Kind::kSpeed, "speed in rad/s = ", std::abs(velocity_rad_s), limits_.motion.velocity_rad_s,
+    return above("speed in rad/s = ", std::abs(velocity_rad_s), limits_.motion.velocity_rad_s,
                  "speed_limit_rad_s", time_s);
   }
   /// `growing`, `falling`: what the speed does beside this instant.
   Found acceleration(double acceleration_rad_s2, bool growing, bool falling, double time_s) const {
     const double size_rad_s2 = std::abs(acceleration_rad_s2);
     const MotionLimits& motion = limits_.motion;
-    Found found =
-        above(Kind::kTorque, "torque of the inertia alone in N.m = ", limits_.inertia_kgm2 * size_rad_s2,
-              limits_.torque_Nm, "torque_limit_Nm", time_s);
+    Found found = above("torque of the inertia alone in N.m = ", limits_.inertia_kgm2 * size_rad_s2,
+                        limits_.torque_Nm, "torque_limit_Nm", time_s);
     if (!found && growing)
-      found = above(Kind::kAcceleration, "acceleration in rad/s^2 = ", size_rad_s2,
-                    motion.acceleration_rad_s2, "acceleration_rad_s2", time_s);
+      found = above("acceleration in rad/s^2 = ", size_rad_s2, motion.acceleration_rad_s2,
+                    "acceleration_rad_s2", time_s);
     if (!found && falling)
-      found = above(Kind::kDeceleration, "deceleration in rad/s^2 = ", size_rad_s2,
-                    motion.deceleration_rad_s2, "deceleration_rad_s2", time_s);
+      found = above("deceleration in rad/s^2 = ", size_rad_s2, motion.deceleration_rad_s2,
+                    "deceleration_rad_s2", time_s);
     return found;
   }
 
@@ -96,10 +94,9 @@ class Judge {
   static std::string at_most(double bound, const std::string& key) {
     return "at most " + bound_text(bound) + " is allowed (joint.limits." + key + ")";
   }
-  Found above(Kind kind, const char* number, double value, double bound, const std::string& key,
-              double time_s) const {
+  Found above(const char* number, double value, double bound, const std::string& key, double time_s) const {
     if (value <= bound * kRounding) return std::nullopt;
-    return defect(kind, time_s, number, value, bound, at_most(bound, key));
+    return defect(time_s, number, value, bound, at_most(bound, key));
   }
   const PathLimits& limits_;
   std::size_t knot_;
@@ -142,21 +139,21 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, const PathLimit
        {std::pair{"time_s = ", here.time_s}, std::pair{"position_rad = ", here.position_rad},
         std::pair{"velocity_rad_s = ", here.velocity_rad_s}})
     if (!std::isfinite(number))
-      return judge.defect(Kind::kNotFinite, here.time_s, name, number, 0.0, "a finite number is allowed");
+      return judge.defect(here.time_s, name, number, 0.0, "a finite number is allowed");
   if (knot == 0 && here.time_s != 0.0)
-    return judge.defect(Kind::kTime, here.time_s, "time_s = ", here.time_s, 0.0,
+    return judge.defect(here.time_s, "time_s = ", here.time_s, 0.0,
                         "0 is allowed, the first knot begins the path");
   const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + limits.period_s;
   // A path is made in decimals: a knot that is a period later may be so but for its last bits.
   if (here.time_s * kRounding < earliest_s)
-    return judge.defect(Kind::kTime, here.time_s, "time_s = ", here.time_s, earliest_s,
+    return judge.defect(here.time_s, "time_s = ", here.time_s, earliest_s,
                         "at least " + bound_text(earliest_s) + " is allowed, a period after the knot before");
   if (here.time_s > kLongestPath_s)
-    return judge.defect(Kind::kDuration, here.time_s, "time_s = ", here.time_s, kLongestPath_s,
+    return judge.defect(here.time_s, "time_s = ", here.time_s, kLongestPath_s,
                         "at most " + bound_text(kLongestPath_s) + " is allowed");
   const bool end = knot == 0 || knot + 1 == path.count;
   if (end && std::abs(here.velocity_rad_s) > kAtBound)
-    return judge.defect(Kind::kNotAtRest, here.time_s, "velocity_rad_s = ", here.velocity_rad_s, 0.0,
+    return judge.defect(here.time_s, "velocity_rad_s = ", here.velocity_rad_s, 0.0,
                         "0 is allowed, a path begins and ends at rest");
   return std::nullopt;
 }
@@ -174,11 +171,10 @@ Reference PathReader::at(const KnotPath& path, double time_s) noexcept {
   return segment_between(from, path.knots[segment_ + 1]).at(std::max(0.0, time_s - from.time_s));
 }
 
-std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits) {
+std::optional<std::string> find_defect(const KnotPath& path, const PathLimits& limits) {
   if (path.count < 2 || path.count > KnotPath::kMostKnots)
-    return PathDefect{Kind::kCount, "knot_count = " + std::to_string(static_cast<std::int64_t>(path.count)) +
-                                        ": from 2 to " + std::to_string(KnotPath::kMostKnots) +
-                                        " are allowed"};
+    return "knot_count = " + std::to_string(static_cast<std::int64_t>(path.count)) + ": from 2 to " +
+           std::to_string(KnotPath::kMostKnots) + " are allowed";
   for (std::size_t knot = 0; knot < path.count; ++knot)
     if (auto found = find_number_defect(path, knot, limits)) return found;
   // Positions are checked before speeds: a path in degrees is refused for its positions.

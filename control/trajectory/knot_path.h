@@ -62,29 +62,11 @@ struct PathLimits {
   double period_s = 0.0;      ///< > 0: knots are not closer
 };
 
-/// What is wrong with a path.
-struct PathDefect {
-  enum class Kind {
-    kCount,      ///< too few or too many knots
-    kNotFinite,  ///< a number that is none
-    kTime,       ///< the first is not at 0, or another not a period after the one before
-    kDuration,   ///< longer than kLongestPath_s
-    kNotAtRest,  ///< it begins or ends with a velocity
-    kPosition,   ///< leaves the range
-    kSpeed,
-    kAcceleration,  ///< while the speed grows
-    kDeceleration,  ///< while it falls
-    kTorque,        ///< of the inertia
-  };
-  Kind kind = Kind::kCount;
-  /// "knot 3 (at 1.2 s): " at it, or between it and the next; the number that is wrong; what is allowed, and by which limit.
-  std::string text;
-};
-
 inline constexpr double kLongestPath_s = 3600.0;
 
 /// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, of its speeds, then of the
-/// ways between them; nothing: it can be followed. Not real-time.
-std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits);
+/// ways between them; nothing: it can be followed. "knot 3 (at 1.2 s): " at it, or between it and the next; the number that is wrong; what
+/// is allowed, and by which limit. Not real-time.
+std::optional<std::string> find_defect(const KnotPath& path, const PathLimits& limits);
 
 }  // namespace strainwave

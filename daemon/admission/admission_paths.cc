@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of admission.h that judges paths: each joint's as a whole, before any of it reaches the loop.
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <sstream>
 #include <strainwave/path_v1.hpp>
 
@@ -22,6 +24,14 @@ KnotPath knots_of(const path_v1& message) {
   for (std::size_t i = 0; i < std::min(path.count, KnotPath::kMostKnots); ++i)
     path.knots[i] = {message.time_s[i], message.position_rad[i], message.velocity_rad_s[i]};
   return path;
+}
+
+bool is_finite(const KnotPath& path) {
+  return std::ranges::all_of(std::span(path.knots).first(std::min(path.count, KnotPath::kMostKnots)),
+                             [](const PathKnot& knot) {
+                               return std::isfinite(knot.time_s) && std::isfinite(knot.position_rad) &&
+                                      std::isfinite(knot.velocity_rad_s);
+                             });
 }
 
 }  // namespace
@@ -46,9 +56,8 @@ Verdict Admission::judge_path(std::size_t joint, const WireMessage& message) {
   loaded->path = knots_of(*path);
   const JointAdmission& limits = joints_[joint];
   if (const auto defect = find_defect(loaded->path, limits.path)) {
-    const bool no_number = defect->kind == PathDefect::Kind::kNotFinite;
-    return refuse(requester, no_number ? Reason::kNotFinite : Reason::kOutOfRange,
-                  limits.name + ", " + defect->text);
+    return refuse(requester, is_finite(loaded->path) ? Reason::kOutOfRange : Reason::kNotFinite,
+                  limits.name + ", " + *defect);
   }
   Verdict verdict = pass(requester, OrderKind::kLoadPath, path->challenge);
   text << loaded->path.count << " knots in " << loaded->path.duration_s() << " s";

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/json_fields.h"
 #include "base/printable.h"
-#include "base/strict_json.h"
 #include "base/text_file.h"
 #include "control/friction/friction_json.h"
 #include "control/units.h"
@@ -17,77 +16,11 @@
 
 namespace strainwave {
 
-using nlohmann::ordered_json;
-
 namespace {
-
-ordered_json friction_law_to_json(const FrictionLaw& law) {
-  return {{"asymptote", friction_parameters_to_json(law.over_temperature.asymptote)},
-          {"amplitude", friction_parameters_to_json(law.over_temperature.amplitude)},
-          {"reference_C", law.over_temperature.reference_C},
-          {"decay_C", law.over_temperature.decay_C},
-          {"stribeck_velocity_rad_s", law.stribeck.velocity_rad_s},
-          {"stribeck_exponent", law.stribeck.exponent}};
-}
 
 // Temperatures of the source's catalogue, Zhao (2006), Table 1.
 constexpr double kSourceTemperatureMin_C = -10.0;
 constexpr double kSourceTemperatureMax_C = 40.0;
-
-ordered_json record_to_json(const FitRecord& fit) {
-  ordered_json residuals = ordered_json::array();
-  for (const auto& row : fit.residuals) {
-    residuals.push_back({{"temperature_C", row[0]},
-                         {"motor_static_Ncm", row[1]},
-                         {"motor_coulomb_Ncm", row[2]},
-                         {"motor_viscous_Ncm_per_rpm", row[3]}});
-  }
-  return {{"method", fit.method},
-          {"weighting", fit.weighting},
-          {"physical", fit.physical},
-          {"cost_source", fit.cost_source},
-          {"cost_torque", fit.cost_torque},
-          {"seed", fit.seed},
-          {"generations", fit.generations},
-          {"evaluations", fit.evaluations},
-          {"stopped", fit.stopped},
-          {"best_by_generation", fit.best_by_generation},
-          {"residuals", std::move(residuals)}};
-}
-
-FitRecord record_from_json(StrictObject object) {
-  FitRecord fit;
-  fit.method = object.text("method", kMaxTextBytes);
-  fit.weighting = object.text("weighting", kMaxTextBytes);
-  fit.physical = object.boolean("physical");
-  fit.cost_source = object.number("cost_source");
-  fit.cost_torque = object.number("cost_torque");
-  fit.seed = static_cast<unsigned long long>(object.integer("seed"));
-  fit.generations = static_cast<int>(object.integer("generations"));
-  fit.evaluations = object.integer("evaluations");
-  fit.stopped = object.text("stopped", kMaxTextBytes);
-  fit.best_by_generation = object.numbers("best_by_generation");
-  for (StrictObject& row : object.objects("residuals", 0, 100000)) {
-    fit.residuals.push_back({row.number("temperature_C"), row.number("motor_static_Ncm"),
-                             row.number("motor_coulomb_Ncm"), row.number("motor_viscous_Ncm_per_rpm")});
-    row.finish();
-  }
-  object.finish();
-  return fit;
-}
-
-ordered_json exponential_to_json(const ExponentialFriction& exponential) {
-  ordered_json object = friction_law_to_json(exponential.law);
-  object["fit"] = record_to_json(exponential.fit);
-  return object;
-}
-
-ExponentialFriction exponential_from_json(StrictObject object) {
-  const FrictionLaw law = friction_law_from_json(object);
-  ExponentialFriction exponential{law, record_from_json(object.object("fit"))};
-  object.finish();
-  return exponential;
-}
 
 FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide side) {
   // A joint-side table is a motor-side one with ratio 1.
@@ -130,47 +63,86 @@ FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide si
 
 }  // namespace
 
+template <typename Json>
+void fields(Json& json, FitRecord& fit) {
+  json("method", fit.method);
+  json("weighting", fit.weighting);
+  json("physical", fit.physical);
+  json("cost_source", fit.cost_source);
+  json("cost_torque", fit.cost_torque);
+  json("seed", fit.seed);
+  json("generations", fit.generations);
+  json("evaluations", fit.evaluations);
+  json("stopped", fit.stopped);
+  json("best_by_generation", fit.best_by_generation);
+  json("residuals", fit.residuals);
+}
+
+template <typename Json>
+void fields(Json& json, FitResidual& residual) {
+  json("temperature_C", residual.temperature_C);
+  json("motor_static_Ncm", residual.motor[0]);
+  json("motor_coulomb_Ncm", residual.motor[1]);
+  json("motor_viscous_Ncm_per_rpm", residual.motor[2]);
+}
+
+template <typename Json>
+void fields(Json& json, ExponentialFriction& exponential) {
+  fields(json, exponential.law);
+  json("fit", exponential.fit);
+}
+
+template <typename Json>
+void fields(Json& json, FuzzyFrictionRecord& fuzzy) {
+  json("friction", fuzzy.friction);
+  json("fit", fuzzy.fit);
+}
+
+template <typename Json>
+void fields(Json& json, FrictionRegression& fit) {
+  json("temperature_C", fit.temperature_C);
+  json("points", fit.points);
+  json("static_Nm", fit.static_Nm.value);
+  json("static_half_width_Nm", fit.static_Nm.half_width);
+  json("coulomb_Nm", fit.coulomb_Nm.value);
+  json("coulomb_half_width_Nm", fit.coulomb_Nm.half_width);
+  json("viscous_Nms_rad", fit.viscous_Nms_rad.value);
+  json("viscous_half_width_Nms_rad", fit.viscous_Nms_rad.half_width);
+  json("residual_squares", fit.residual_squares);
+  json("degrees_of_freedom", fit.degrees_of_freedom);
+}
+
+template <typename Json>
+void fields(Json& json, IdentificationRecord& record) {
+  json("prior_file", record.prior_file);
+  json("prior_sha256", record.prior_sha256);
+  json("prior_common_deviation", record.weights.common);
+  json("prior_own_deviation", record.weights.own);
+  json("torque_uncertainty", record.weights.torque_uncertainty);
+  json("noise_Nm", record.noise_Nm);
+  json("confidence", record.confidence);
+  json("measured", record.measured);
+}
+
+template <typename Json>
+void fields(Json& json, FrictionFile& file) {
+  json.refuse("primary", "holds gains, not fitted friction: give the file that strainwave-design fit wrote");
+  json.format(kFrictionFileFormat, "fit again");
+  json("gear_ratio", file.gear_ratio);
+  json.require(file.gear_ratio > 0.0, "gear_ratio", "above 0");
+  json("data_file", file.data_file);
+  json("data_sha256", file.data_sha256);
+  json("exponential", file.exponential);
+  json("fuzzy", file.fuzzy);
+  json("identification", file.identification);
+}
+
 std::string to_json(const FrictionFile& file) {
-  ordered_json document = {{"format", kFrictionFileFormat},
-                           {"gear_ratio", file.gear_ratio},
-                           {"data_file", file.data_file},
-                           {"data_sha256", file.data_sha256}};
-  if (file.exponential) document["exponential"] = exponential_to_json(*file.exponential);
-  if (file.fuzzy) {
-    document["fuzzy"] = {{"friction", fuzzy_friction_to_json(file.fuzzy->friction)},
-                         {"fit", record_to_json(file.fuzzy->fit)}};
-  }
-  if (file.identification) document["identification"] = to_json(*file.identification);
-  return document.dump(2) + "\n";
+  return json_text(file);
 }
 
 FrictionFile friction_file_from_json(const std::string& text, const std::string& source) {
-  const ordered_json document = parse_strict_json(text, source);
-  StrictObject object(document, source);
-  if (object.has("primary"))
-    throw InputError(source +
-                     ": holds gains, not fitted friction: give the file that strainwave-design fit wrote");
-  const long long format = object.integer("format");
-  if (format != kFrictionFileFormat) {
-    throw InputError(source, "format", std::to_string(format),
-                     "this program reads format " + std::to_string(kFrictionFileFormat) + "; fit again");
-  }
-  FrictionFile file;
-  file.gear_ratio = object.number("gear_ratio");
-  if (!(file.gear_ratio > 0.0)) throw InputError(object.where("gear_ratio") + ": must be above 0");
-  file.data_file = object.text("data_file", kMaxTextBytes);
-  file.data_sha256 = object.text("data_sha256", kMaxTextBytes);
-  if (object.has("exponential")) file.exponential = exponential_from_json(object.object("exponential"));
-  if (object.has("fuzzy")) {
-    StrictObject fuzzy = object.object("fuzzy");
-    file.fuzzy = FuzzyFrictionRecord{fuzzy_friction_from_json(fuzzy.object("friction")),
-                                     record_from_json(fuzzy.object("fit"))};
-    fuzzy.finish();
-  }
-  if (object.has("identification"))
-    file.identification = identification_from_json(object.object("identification"));
-  object.finish();
-  return file;
+  return from_json_text<FrictionFile>(text, source);
 }
 
 FrictionRules friction_rules_from_json(const std::string& text, const std::string& source,

@@ -2,6 +2,7 @@
 // The result of a friction fit as a file: what `fit` writes and `gains` reads. Joint side, SI. Offline.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,12 @@ namespace strainwave {
 
 inline constexpr int kFrictionFileFormat = 1;
 
+/// At one temperature the data minus the fit, of static, Coulomb (N.cm) and viscous friction (N.cm/RPM).
+struct FitResidual {
+  double temperature_C = 0.0;
+  std::array<double, 3> motor{};
+};
+
 /// How good a fit is; costs at the motor side in the catalogue's units (N.cm, N.cm/RPM).
 struct FitRecord {
   std::string method;     ///< "least-squares" or "epgs"; "logs", "record": measured, costs are 0
@@ -28,8 +35,7 @@ struct FitRecord {
   std::int64_t evaluations = 0;  ///< of the cost
   std::string stopped;           ///< why
   std::vector<double> best_by_generation;
-  /// Per temperature: temperature_C, then the data minus the fit of static, Coulomb (N.cm) and viscous (N.cm/RPM).
-  std::vector<std::vector<double>> residuals;
+  std::vector<FitResidual> residuals;
 };
 
 struct ExponentialFriction {

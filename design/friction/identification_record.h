@@ -3,11 +3,9 @@
 // side. Offline.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "base/strict_json.h"
 #include "design/friction/friction_regression.h"
 #include "design/friction/friction_update.h"
 
@@ -21,8 +19,5 @@ struct IdentificationRecord {
   double confidence = 0.0;                   ///< of the intervals
   std::vector<FrictionRegression> measured;  ///< one per temperature
 };
-
-nlohmann::ordered_json to_json(const IdentificationRecord& record);
-IdentificationRecord identification_from_json(StrictObject object);
 
 }  // namespace strainwave

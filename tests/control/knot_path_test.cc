@@ -11,7 +11,9 @@
 namespace strainwave {
 namespace {
 
-using Kind = PathDefect::Kind;
+bool names(const std::optional<std::string>& defect, const std::string& what) {
+  return defect && defect->find(what) != std::string::npos;
+}
 
 KnotPath make_path(const std::vector<PathKnot>& knots) {
   KnotPath path;
@@ -111,10 +113,6 @@ TEST(KnotPath, IsRefusedForExactlyWhatItNeedsBetweenItsKnots) {
   for (int i = 0; i < 200; ++i) {
     const KnotPath path = random_path(random);
     const Needs needs = needs_of(path);
-    const auto kind_with = [&](const PathLimits& limits) {
-      const auto defect = find_defect(path, limits);
-      return defect ? std::optional(defect->kind) : std::nullopt;
-    };
     const auto least = [&](double share) {
       PathLimits limits = wide();
       limits.range = {needs.min_rad - (share - 1.0), needs.max_rad + (share - 1.0)};
@@ -122,26 +120,26 @@ TEST(KnotPath, IsRefusedForExactlyWhatItNeedsBetweenItsKnots) {
       limits.torque_Nm = share * limits.inertia_kgm2 * std::max(needs.growing, needs.falling);
       return limits;
     };
-    ASSERT_EQ(kind_with(least(1.001)), std::nullopt) << i << ": " << find_defect(path, least(1.001))->text;
+    ASSERT_EQ(find_defect(path, least(1.001)), std::nullopt) << i;
     const PathLimits little = least(0.999);
     PathLimits limits = wide();
     limits.range.min_rad = little.range.min_rad;
-    EXPECT_EQ(kind_with(limits), Kind::kPosition) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "position_rad = ")) << i;
     limits = wide();
     limits.range.max_rad = little.range.max_rad;
-    EXPECT_EQ(kind_with(limits), Kind::kPosition) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "position_rad = ")) << i;
     limits = wide();
     limits.motion.velocity_rad_s = little.motion.velocity_rad_s;
-    EXPECT_EQ(kind_with(limits), Kind::kSpeed) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "speed in rad/s = ")) << i;
     limits = wide();
     limits.motion.acceleration_rad_s2 = little.motion.acceleration_rad_s2;
-    EXPECT_EQ(kind_with(limits), Kind::kAcceleration) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "joint.limits.acceleration_rad_s2")) << i;
     limits = wide();
     limits.motion.deceleration_rad_s2 = little.motion.deceleration_rad_s2;
-    EXPECT_EQ(kind_with(limits), Kind::kDeceleration) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "joint.limits.deceleration_rad_s2")) << i;
     limits = wide();
     limits.torque_Nm = little.torque_Nm;
-    EXPECT_EQ(kind_with(limits), Kind::kTorque) << i;
+    EXPECT_TRUE(names(find_defect(path, limits), "joint.limits.torque_limit_Nm")) << i;
   }
 }
 
@@ -153,23 +151,22 @@ TEST(KnotPath, NamesKnotTimeValueAndLimit) {
   const auto speed = find_defect(path, limits);
   ASSERT_TRUE(speed);
   EXPECT_EQ(
-      speed->text,
+      speed,
       "knot 1 (at 1.5 s): speed in rad/s = 1.5: at most 1.4 is allowed (joint.limits.speed_limit_rad_s)");
   limits = wide();
   limits.range.max_rad = 0.9;
-  EXPECT_EQ(find_defect(path, limits)->text,
+  EXPECT_EQ(find_defect(path, limits),
             "knot 2 (at 2 s): position_rad = 1: at most 0.9 is allowed (joint.limits.position_max_rad)");
   limits = wide();
   limits.torque_Nm = 2.9;
-  EXPECT_EQ(find_defect(path, limits)->text,
+  EXPECT_EQ(find_defect(path, limits),
             "knot 1 (at 1 s): torque of the inertia alone in N.m = 3: at most 2.9 is allowed "
             "(joint.limits.torque_limit_Nm)");
 }
 
 TEST(KnotPath, NamesANumberThatIsNone) {
   const KnotPath path = make_path({{0, 0, 0}, {1, 1, std::nan("")}});
-  EXPECT_EQ(find_defect(path, wide())->text,
-            "knot 1 (at 1 s): velocity_rad_s = nan: a finite number is allowed");
+  EXPECT_EQ(find_defect(path, wide()), "knot 1 (at 1 s): velocity_rad_s = nan: a finite number is allowed");
 }
 
 // 45 degrees within a second: the range says more of what is wrong than the torque that this would take.
@@ -178,7 +175,7 @@ TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
   limits.torque_Nm = 2.9;
   limits.range.max_rad = 3.2;
   const KnotPath path = make_path({{0, 0, 0}, {1, 45, 0}});
-  EXPECT_EQ(find_defect(path, limits)->text,
+  EXPECT_EQ(find_defect(path, limits),
             "knot 1 (at 1 s): position_rad = 45: at most 3.2 is allowed (joint.limits.position_max_rad)");
 }
 
@@ -186,7 +183,7 @@ TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
 TEST(KnotPath, MayUseItsLimitsWhole) {
   const PathLimits limits{{0.0, 3.0}, {2.0, 4.0, 8.0}, 4.0, 0.5, 1e-3};
   const KnotPath path = make_path({{0, 0, 0}, {0.5, 0.5, 2}, {1.625, 2.75, 2}, {1.875, 3, 0}});
-  EXPECT_EQ(find_defect(path, limits), std::nullopt) << find_defect(path, limits)->text;
+  EXPECT_EQ(find_defect(path, limits), std::nullopt);
 }
 
 TEST(KnotPath, HasTwoTo320Knots) {
@@ -197,28 +194,28 @@ TEST(KnotPath, HasTwoTo320Knots) {
   knots.push_back({4.0, 0.5, 0.0});
   const auto many = find_defect(make_path(knots), wide());
   ASSERT_TRUE(many);
-  EXPECT_EQ(many->text, "knot_count = 321: from 2 to 320 are allowed");
-  EXPECT_EQ(find_defect(make_path({{0, 0, 0}}), wide())->kind, Kind::kCount);
-  EXPECT_EQ(find_defect(KnotPath{}, wide())->kind, Kind::kCount);
+  EXPECT_EQ(*many, "knot_count = 321: from 2 to 320 are allowed");
+  EXPECT_EQ(find_defect(make_path({{0, 0, 0}}), wide()), "knot_count = 1: from 2 to 320 are allowed");
+  EXPECT_EQ(find_defect(KnotPath{}, wide()), "knot_count = 0: from 2 to 320 are allowed");
 }
 
 TEST(KnotPath, IsRefusedWhenItsNumbersAreNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto kind_of = [](const std::vector<PathKnot>& knots) {
-    return find_defect(make_path(knots), wide())->kind;
+  const auto is_refused = [](const std::vector<PathKnot>& knots, const std::string& what) {
+    return names(find_defect(make_path(knots), wide()), what);
   };
-  EXPECT_EQ(kind_of({{0, 0, 0}, {1, nan, 0}}), Kind::kNotFinite);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {nan, 0, 0}}), Kind::kNotFinite);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {0.5, 0, std::numeric_limits<double>::infinity()}, {1, 0, 0}}),
-            Kind::kNotFinite);
-  EXPECT_EQ(kind_of({{0.1, 0, 0}, {1, 0, 0}}), Kind::kTime);
-  EXPECT_EQ(kind_of({{-0.1, 0, 0}, {1, 0, 0}}), Kind::kTime);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {1, 0, 0}, {1.0005, 0, 0}}), Kind::kTime);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}), Kind::kTime);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {3601, 0, 0}}), Kind::kDuration);
-  EXPECT_EQ(kind_of({{0, 0, 0.1}, {1, 0, 0}}), Kind::kNotAtRest);
-  EXPECT_EQ(kind_of({{0, 0, 0}, {1, 0, 0.1}}), Kind::kNotAtRest);
-  EXPECT_EQ(find_defect(make_path({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}), wide())->text,
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {1, nan, 0}}, "a finite number is allowed"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {nan, 0, 0}}, "a finite number is allowed"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {0.5, 0, std::numeric_limits<double>::infinity()}, {1, 0, 0}},
+                         "a finite number is allowed"));
+  EXPECT_TRUE(is_refused({{0.1, 0, 0}, {1, 0, 0}}, "0 is allowed, the first knot begins the path"));
+  EXPECT_TRUE(is_refused({{-0.1, 0, 0}, {1, 0, 0}}, "0 is allowed, the first knot begins the path"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {1, 0, 0}, {1.0005, 0, 0}}, "a period after the knot before"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}, "a period after the knot before"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {3601, 0, 0}}, "at most 3600 is allowed"));
+  EXPECT_TRUE(is_refused({{0, 0, 0.1}, {1, 0, 0}}, "a path begins and ends at rest"));
+  EXPECT_TRUE(is_refused({{0, 0, 0}, {1, 0, 0.1}}, "a path begins and ends at rest"));
+  EXPECT_EQ(find_defect(make_path({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}), wide()),
             "knot 2 (at 0.5 s): time_s = 0.5: at least 1.001 is allowed, a period after the knot before");
 }
 

@@ -46,7 +46,7 @@ TEST(StraightPath, KeepsEveryJointsLimitsAndTheSameShareOfEveryWay) {
                               1.0,
                               0.001};
       const auto defect = find_defect(knots, limits);
-      ASSERT_FALSE(defect) << round << ", " << i << ": " << defect->text;
+      ASSERT_FALSE(defect) << round << ", " << i << ": " << *defect;
       EXPECT_EQ(knots.last().position_rad, move.to_rad);
       EXPECT_EQ(knots.duration_s(), path[0].knots.back().time_s);
       PathReader first;

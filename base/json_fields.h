@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of a struct in JSON, each named once for both ways. A function template gives every field with its key to a writer or a reader:
+//
+//   template <typename Json>
+//   void fields(Json& json, Interval& interval) {
+//     json("value", interval.value);
+//     json("half_width_95", interval.half_width_95);
+//   }
+//
+// A field is a number, a truth value, a text, a list of numbers, another struct with fields(), a vector of such structs, or one of these
+// that may be missing (std::optional). The reader is as strict as base/strict_json.h and throws InputError. Not real-time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/fixed_string.h"
+#include "base/input_error.h"
+#include "base/strict_json.h"
+
+namespace strainwave {
+
+/// More entries than any list of ours has.
+inline constexpr std::size_t kMostJsonEntries = 100'000;
+
+template <typename Value, typename Json>
+concept HasFields = requires(Json& json, Value& value) {
+  fields(json, value);
+};
+
+class JsonWriter {
+ public:
+  nlohmann::ordered_json document = nlohmann::ordered_json::object();
+
+  template <typename Value>
+  void operator()(const std::string& key, Value& value) {
+    if constexpr (HasFields<Value, JsonWriter>) {
+      JsonWriter part;
+      fields(part, value);
+      document[key] = std::move(part.document);
+    } else {
+      document[key] = value;
+    }
+  }
+  template <typename Value>
+  void operator()(const std::string& key, std::optional<Value>& value) {
+    if (value) (*this)(key, *value);
+  }
+  template <std::size_t N>
+  void operator()(const std::string& key, FixedString<N>& value) {
+    document[key] = value.view();
+  }
+  template <typename Entry>
+  requires HasFields<Entry, JsonWriter>
+  void operator()(const std::string& key, std::vector<Entry>& entries) {
+    auto count = static_cast<std::int32_t>(entries.size());
+    list(key, count, 0, entries.size(), [&](auto& json, std::size_t i) { fields(json, entries[i]); });
+  }
+  void text(const std::string& key, std::string& value, std::size_t) { document[key] = value; }
+  /// An enumeration or a truth value, by its name.
+  template <typename Value, std::size_t N>
+  void name(const std::string& key, Value& value, const std::array<const char*, N>& names) {
+    document[key] = names[static_cast<std::size_t>(value)];
+  }
+  void numbers(const std::string& key, std::span<double> values) { document[key] = values; }
+  /// In rows of `columns`.
+  void matrix(const std::string& key, std::span<double> values, std::size_t columns) {
+    auto& rows = document[key] = nlohmann::ordered_json::array();
+    for (; !values.empty(); values = values.subspan(columns)) rows.push_back(values.first(columns));
+  }
+  /// `count` objects, when read from `least` to `most`; `entry_fields(json, index)` has the fields of one.
+  template <typename EntryFields>
+  void list(const std::string& key, std::int32_t& count, std::size_t, std::size_t,
+            const EntryFields& entry_fields) {
+    auto& entries = document[key] = nlohmann::ordered_json::array();
+    for (std::int32_t i = 0; i < count; ++i) {
+      JsonWriter entry;
+      entry_fields(entry, static_cast<std::size_t>(i));
+      entries.push_back(std::move(entry.document));
+    }
+  }
+  /// What a value must be that is read.
+  void require(bool, const std::string&, const std::string&) {}
+  /// A key of another kind of file.
+  void refuse(const std::string&, const std::string&) {}
+  /// Of the file; of another one the reader says what to do.
+  void format(int expected, const std::string&) { document["format"] = expected; }
+};
+
+class JsonReader {
+ public:
+  explicit JsonReader(StrictObject object) : object_(std::move(object)) {}
+  /// Refuses keys that were not read.
+  void finish() const { object_.finish(); }
+
+  template <typename Value>
+  void operator()(const std::string& key, Value& value) {
+    if constexpr (HasFields<Value, JsonReader>) {
+      JsonReader part(object_.object(key));
+      fields(part, value);
+      part.finish();
+    } else {
+      read(key, value);
+    }
+  }
+  template <typename Value>
+  void operator()(const std::string& key, std::optional<Value>& value) {
+    value.reset();
+    if (object_.has(key)) (*this)(key, value.emplace());
+  }
+  template <typename Entry>
+  requires HasFields<Entry, JsonReader>
+  void operator()(const std::string& key, std::vector<Entry>& entries) {
+    std::int32_t count = 0;
+    list(key, count, 0, kMostJsonEntries,
+         [&](auto& json, std::size_t) { fields(json, entries.emplace_back()); });
+  }
+  void text(const std::string& key, std::string& value, std::size_t most_bytes) {
+    value = object_.text(key, most_bytes);
+  }
+  template <typename Value, std::size_t N>
+  void name(const std::string& key, Value& value, const std::array<const char*, N>& names) {
+    const std::string given = object_.text(key, kMaxTextBytes);
+    const auto found = std::ranges::find(names, std::string_view(given));
+    std::string allowed = names.front();
+    for (std::size_t i = 1; i < N; ++i) allowed += (i + 1 < N ? ", " : " or ") + std::string(names[i]);
+    require(found != names.end(), key, allowed);
+    value = static_cast<Value>(found - names.begin());
+  }
+  void numbers(const std::string& key, std::span<double> values) {
+    std::ranges::copy(object_.numbers(key, values.size()), values.begin());
+  }
+  void matrix(const std::string& key, std::span<double> values, std::size_t columns) {
+    std::ranges::copy(object_.matrix(key, values.size() / columns, columns), values.begin());
+  }
+  template <typename EntryFields>
+  void list(const std::string& key, std::int32_t& count, std::size_t least, std::size_t most,
+            const EntryFields& entry_fields) {
+    count = 0;
+    for (StrictObject& object : object_.objects(key, least, most)) {
+      JsonReader entry(std::move(object));
+      entry_fields(entry, static_cast<std::size_t>(count++));
+      entry.finish();
+    }
+  }
+  void require(bool good, const std::string& key, const std::string& allowed) const {
+    if (!good) throw InputError(object_.shown(key) + ": must be " + allowed);
+  }
+  void refuse(const std::string& key, const std::string& explained) const {
+    if (object_.has(key)) throw InputError(object_.where("") + explained);
+  }
+  void format(int expected, const std::string& advice) {
+    const long long given = object_.integer("format");
+    if (given != expected)
+      throw InputError(object_.where("format") + " = " + std::to_string(given) +
+                       ": this program reads format " + std::to_string(expected) + "; " + advice);
+  }
+
+ private:
+  void read(const std::string& key, double& value) { value = object_.number(key); }
+  void read(const std::string& key, bool& value) { value = object_.boolean(key); }
+  void read(const std::string& key, std::string& value) { value = object_.text(key, kMaxTextBytes); }
+  void read(const std::string& key, std::vector<double>& values) { values = object_.numbers(key); }
+  template <std::integral Integer>
+  void read(const std::string& key, Integer& value) {
+    const long long given = object_.integer(key);
+    value = static_cast<Integer>(given);
+    require(static_cast<long long>(value) == given, key, "a smaller whole number");
+  }
+  template <std::size_t N>
+  void read(const std::string& key, FixedString<N>& value) {
+    value = FixedString<N>(object_.text(key, N - 1));
+  }
+  template <typename Number, std::size_t N>
+  void read(const std::string& key, std::array<Number, N>& values) {
+    const std::vector<double> given = object_.numbers(key, N);
+    for (std::size_t i = 0; i < N; ++i) {
+      // A number that is none, or too large, is no whole one.
+      const bool fits =
+          std::floating_point<Number> || (std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]));
+      require(fits, key, "whole numbers");
+      values[i] = static_cast<Number>(given[i]);
+    }
+  }
+
+  StrictObject object_;
+};
+
+/// The whole of a file.
+template <typename Value>
+std::string json_text(Value value) {
+  JsonWriter writer;
+  fields(writer, value);
+  return writer.document.dump(2) + "\n";
+}
+template <typename Value>
+Value from_json_text(std::string_view text, const std::string& source) {
+  const nlohmann::ordered_json document = parse_strict_json(text, source);
+  JsonReader reader(StrictObject(document, source));
+  Value value;
+  fields(reader, value);
+  reader.finish();
+  return value;
+}
+
+}  // namespace strainwave
