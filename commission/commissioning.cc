@@ -13,8 +13,9 @@ namespace strainwave {
 
 namespace {
 
-// A current loop of 0.5 ms takes a twentieth of the shaken torque's peaks.
+// Of the ordered torque, in the mean over this time: longer than drives filter the torque that they report.
 constexpr double kGiven = 0.9;
+constexpr double kReported_s = 0.02;
 
 constexpr std::array<const char*, 6> kNames{"identity", "direction", "breakaway",
                                             "friction", "motion",    "comparison"};
@@ -46,20 +47,26 @@ std::string text_of(const CommissionValue& value) {
                      value.unit, value.used);
 }
 
-/// An order that is cut off looks like a heavier joint.
+/// An order that is cut off looks like a heavier joint. Of both the mean over some time: a drive may filter what it reports.
 std::string find_torque_that_is_not_given(const JointTrace& trace) {
+  const double share = trace.period_s / (kReported_s + trace.period_s);
   double ordered_Nm = 0.0;
   double given_Nm = 0.0;
+  double mean_ordered_Nm = 0.0;
+  double mean_given_Nm = 0.0;
   bool measured = false;
   for (const JointSample& sample : trace.samples) {
     if (!std::isfinite(sample.torque_applied_Nm)) continue;
     measured = true;
-    ordered_Nm = std::max(ordered_Nm, std::abs(sample.torque_ordered_Nm));
-    given_Nm = std::max(given_Nm, std::abs(sample.torque_applied_Nm));
+    mean_ordered_Nm += share * (sample.torque_ordered_Nm - mean_ordered_Nm);
+    mean_given_Nm += share * (sample.torque_applied_Nm - mean_given_Nm);
+    ordered_Nm = std::max(ordered_Nm, std::abs(mean_ordered_Nm));
+    given_Nm = std::max(given_Nm, std::abs(mean_given_Nm));
   }
   if (!measured || given_Nm >= kGiven * ordered_Nm) return "";
   return fmt::format(
-      "the drive gave at most {:.1f} of the {:.1f} N.m ordered: set torque_limit_Nm to what it can give",
+      "the drive gave at most {:.1f} of the {:.1f} N.m ordered, in means over 20 ms: set torque_limit_Nm to "
+      "what it can give",
       given_Nm, ordered_Nm);
 }
 

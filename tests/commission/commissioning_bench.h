@@ -45,6 +45,8 @@ class Bench {
     torque_ = torque;
   }
 
+  /// The drive reports the torque through a filter of this time constant.
+  void filter_report(double time_s) { report_s_ = time_s; }
   void unplug_sensor() { has_sensor_ = false; }
 
   void period(Commissioning& commissioning) {
@@ -53,6 +55,8 @@ class Bench {
     speed_rad_s_ = std::max(speed_rad_s_, std::abs(drive_.plant().state().velocity_rad_s));
     reading.joint_position_rad *= position_;
     reading.torque_applied_Nm *= torque_;
+    reported_Nm_ += 0.001 / (report_s_ + 0.001) * (reading.torque_applied_Nm - reported_Nm_);
+    reading.torque_applied_Nm = reported_Nm_;
     reading.has_temperature = reading.has_temperature && has_sensor_;
     ActuatorCommand command = commissioning.step(reading);
     enabled_ = command.enable;
@@ -82,6 +86,8 @@ class Bench {
   SimulatedActuator drive_;
   double position_ = 1.0;
   double torque_ = 1.0;
+  double report_s_ = 0.0;
+  double reported_Nm_ = 0.0;
   bool has_sensor_ = true;
   std::int64_t now_ns_ = 0;
   double speed_rad_s_ = 0.0;
