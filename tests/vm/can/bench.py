@@ -90,10 +90,13 @@ def now_us():
 
 def wait_until(condition, timeout_s, what):
     end = time.monotonic() + timeout_s
+    pause_s = 0.002
     while not condition():
         if time.monotonic() > end:
             raise AssertionError(f'not within {timeout_s} s: {what}')
-        time.sleep(0.005)
+        # The longer it takes, the less often it is looked at: an interpreter that wakes up is dear in a virtual machine.
+        time.sleep(pause_s)
+        pause_s = min(1.3 * pause_s, 0.05)
 
 
 def make_bus(name=BUS):
@@ -216,6 +219,8 @@ class Daemon:
             self.wait_for(wait_for)
 
     def wait_for(self, joint):
+        # Who asks before it listens waits for the whole time-out.
+        wait_until(lambda: self.process.poll() is not None or ', session ' in self.text(), 10, 'the daemon runs')
         wait_until(lambda: self.process.poll() is not None or ctl('status', joint, timeout_s=0.5)[0] == 0, 10,
                    'the daemon answers')
         assert self.process.poll() is None, 'the daemon ended: ' + self.text()
