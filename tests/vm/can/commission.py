@@ -63,7 +63,7 @@ class Commission(unittest.TestCase):
         drive = Drive()
         run = Commissioning('interrupted')
         wait_until(lambda: '\nmotion: ' in run.lines() or run.process.poll() is not None, 240, 'the shaken strokes have begun')
-        time.sleep(5)
+        time.sleep(1)
         os.write(run.keyboard, b'\x13')  # Ctrl-S, as good as any
         self.assertEqual(run.process.wait(20), INTERRUPTED, run.lines())
         self.assertNotEqual(drive.report()['power'], 'OperationEnabled')

@@ -17,12 +17,12 @@ class StrictSwings(StrictBench):
         for target_rad, side in ((0.3, 1), (0.0, -1)):
             at_us = now_us()
             must('move', JOINT, str(target_rad))
-            time.sleep(1)
+            time.sleep(0.7)
             for line in pathlib.Path('track').read_text().splitlines():
                 utime, position_rad = int(line.split()[0]), float(line.split()[1])
                 if utime > at_us:
                     beyond_mrad = max(beyond_mrad, 1e3 * side * (position_rad - target_rad))
-                if utime > at_us + 700000:
+                if utime > at_us + 500000:
                     off_mrad = max(off_mrad, 1e3 * abs(position_rad - target_rad))
         return beyond_mrad, off_mrad
 

@@ -62,7 +62,7 @@ if grep -E 'wrong signature|not rising' output | grep -qv 'refused messages     
 ctl --prefix leg take-over knee
 ctl --prefix leg identify knee --out cut.lcm >identify.txt 2>&1 &
 cut=$!
-sleep 8
+sleep 4
 for machine in arm leg; do in_machine $machine tc qdisc replace dev eth0 root netem loss 100%; done
 status=0
 wait $cut || status=$?
