@@ -67,6 +67,22 @@ struct Equations {
   }
 };
 
+Equations equations_of(const MotionVector& p, const MotionWindow& window, const WindowVector& own,
+                       const ToldJoint& told) {
+  const double factor = std::exp(p[kLogStiffness]);
+  return {std::exp(p[kLogMotorInertia]),
+          std::exp(p[kLogLinkInertia]),
+          std::exp(p[kLogDamping]),
+          window.friction_Nm + own[4],
+          p[kViscous],
+          p[kShare],
+          window.direction,
+          0.5 * told.lost_motion_rad * std::exp(p[kLogLostMotion]),
+          {factor * told.spring.stiffness_1_Nm_rad, told.spring.torque_1_Nm,
+           factor * told.spring.stiffness_2_Nm_rad, told.spring.torque_2_Nm,
+           factor * told.spring.stiffness_3_Nm_rad}};
+}
+
 /// A part of a period under one order.
 struct Part {
   double begin, end;  ///< shares of the period
@@ -114,18 +130,7 @@ void MotionModel::keep_in_bounds(MotionVector& p) const {
 
 void MotionModel::simulate(const MotionVector& p, const MotionWindow& window, const WindowVector& own,
                            Eigen::Ref<Eigen::VectorXd> positions_rad) const {
-  const double factor = std::exp(p[kLogStiffness]);
-  Equations eq{std::exp(p[kLogMotorInertia]),
-               std::exp(p[kLogLinkInertia]),
-               std::exp(p[kLogDamping]),
-               window.friction_Nm + own[4],
-               p[kViscous],
-               p[kShare],
-               window.direction,
-               0.5 * told_.lost_motion_rad * std::exp(p[kLogLostMotion]),
-               {factor * told_.spring.stiffness_1_Nm_rad, told_.spring.torque_1_Nm,
-                factor * told_.spring.stiffness_2_Nm_rad, told_.spring.torque_2_Nm,
-                factor * told_.spring.stiffness_3_Nm_rad}};
+  const Equations eq = equations_of(p, window, own, told_);
   const double lag_s = std::exp(p[kLogLag]);
   const std::array<Part, 2> parts = parts_of(p[kDelay] / trace_.period_s, lag_s, trace_.period_s);
   const auto ordered_Nm = [&](std::size_t at, int ago) {
