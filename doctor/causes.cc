@@ -10,7 +10,7 @@ namespace strainwave {
 //   ratio            both:                                 J, Fv, K / x^2, Fc / x, link's motion / x
 //   friction         Fc, Fv x
 //   brake            Fc alone, more
-const std::vector<Cause>& causes() {
+const std::vector<Cause>& causes() {  // NOLINT(readability-function-size): a table
   using enum Feature;
   static const std::vector<Cause> kCauses{
       {"wrong sign",

@@ -52,6 +52,25 @@ bool is_steady(const Stretch& stretch, std::size_t i) {
   return std::abs(stretch.velocity_rad_s[i - 10] - now_rad_s) <= kSteady * std::abs(now_rad_s) + 0.005;
 }
 
+// From rest or steady motion to the next the spring is as before: what turned between has slipped.
+double slipped_rad(const std::vector<Stretch>& stretches, double link_ratio) {
+  double most_rad = 0.0;
+  for (const Stretch& stretch : stretches) {
+    double turned_rad = 0.0;
+    for (std::size_t i = 10; i < stretch.position_rad.size(); ++i) {
+      if (!std::isfinite(stretch.link_rad[i]) || !std::isfinite(stretch.link_rad[i - 1])) continue;
+      if (is_steady(stretch, i)) {
+        most_rad = std::max(most_rad, std::abs(turned_rad));
+        turned_rad = 0.0;
+      } else {
+        turned_rad += stretch.link_rad[i] - stretch.link_rad[i - 1] -
+                      link_ratio * (stretch.position_rad[i] - stretch.position_rad[i - 1]);
+      }
+    }
+  }
+  return most_rad;
+}
+
 void add_link(const std::vector<Stretch>& stretches, Features& features) {
   double fastest = 0.0;
   bool there = false;
@@ -66,7 +85,6 @@ void add_link(const std::vector<Stretch>& stretches, Features& features) {
     return;
   }
   Travel slow, fast;
-  double drift_rad = 0.0;
   for (const Stretch& stretch : stretches) {
     for (std::size_t i = 1; i < stretch.position_rad.size(); ++i) {
       const double speed = std::abs(stretch.velocity_rad_s[i]);
@@ -92,20 +110,7 @@ void add_link(const std::vector<Stretch>& stretches, Features& features) {
     add_ratio(Feature::kLinkRatioFast, std::log(fast.ratio() / slow.ratio()), fast.motor_rad,
               fmt::format("in fast motion the link turned {:.4f} rad, the motor's encoder says {:.4f}",
                           fast.link_rad, fast.motor_rad));
-  // From rest or steady motion to the next the spring is as before: what turned between has slipped.
-  for (const Stretch& stretch : stretches) {
-    double turned_rad = 0.0;
-    for (std::size_t i = 10; i < stretch.position_rad.size(); ++i) {
-      if (!std::isfinite(stretch.link_rad[i]) || !std::isfinite(stretch.link_rad[i - 1])) continue;
-      if (is_steady(stretch, i)) {
-        drift_rad = std::max(drift_rad, std::abs(turned_rad));
-        turned_rad = 0.0;
-      } else {
-        turned_rad += stretch.link_rad[i] - stretch.link_rad[i - 1] -
-                      slow.ratio() * (stretch.position_rad[i] - stretch.position_rad[i - 1]);
-      }
-    }
-  }
+  const double drift_rad = slipped_rad(stretches, slow.ratio());
   features[Feature::kLinkJumps] = Observation{
       drift_rad, kSlipTolerance_rad,
       fmt::format("while the joint accelerated the link turned by {:.4f} rad against the motor", drift_rad)};

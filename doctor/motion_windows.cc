@@ -59,9 +59,10 @@ Eigen::VectorXd MotionWindows::torques(double delay_periods) const {
   const int reach = static_cast<int>(std::ceil(shift)) + half_;
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     double sum = 0.0;
-    for (int i = -reach; i <= half_; ++i)
-      sum += Bump((i + shift) / half_).value *
-             windows_[w].stretch->torque_Nm[static_cast<std::size_t>(windows_[w].center + i)];
+    for (int i = -reach; i <= half_; ++i) {
+      const int at = windows_[w].center + i;
+      sum += Bump((i + shift) / half_).value * windows_[w].stretch->torque_Nm[static_cast<std::size_t>(at)];
+    }
     sums[static_cast<Eigen::Index>(w)] = sum / normaliser();
   }
   return sums;
@@ -79,7 +80,8 @@ MotionRows MotionWindows::rows(double scale) const {
     Eigen::Matrix<double, kMotionColumns, 1> row = Eigen::Matrix<double, kMotionColumns, 1>::Zero();
     for (int i = -half_; i <= half_; ++i) {
       const Bump bump(static_cast<double>(i) / half_);
-      const auto k = static_cast<std::size_t>(windows_[w].center + i);
+      const int sample = windows_[w].center + i;
+      const auto k = static_cast<std::size_t>(sample);
       const double position_rad =
           stretch.position_rad[k] - stretch.position_rad[static_cast<std::size_t>(windows_[w].center)];
       row[kMotor] += bump.second / (half_s * half_s) * position_rad;
