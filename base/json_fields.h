@@ -186,7 +186,7 @@ class JsonReader {
   void read(const std::string& key, std::array<Number, N>& values) {
     const std::vector<double> given = object_.numbers(key, N);
     for (std::size_t i = 0; i < N; ++i) {
-      // A number that is none, or too large, is no whole one.
+      // Compared so that what is not finite fails, too.
       const bool fits =
           std::floating_point<Number> || (std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]));
       require(fits, key, "whole numbers");
