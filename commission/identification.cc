@@ -194,10 +194,9 @@ std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const Fricti
 JointEstimates identify(const JointTrace& trace, const ToldJoint& told) {
   JointEstimates found;
   found.direction = find_direction(trace);
-  std::tie(found.breakaway_positive_Nm, found.breakaway_negative_Nm) = [&] {
-    const auto both = find_breakaway(trace, told.gear_ratio);
-    return std::pair(both[0], both[1]);
-  }();
+  const auto breakaway = find_breakaway(trace, told.gear_ratio);
+  found.breakaway_positive_Nm = breakaway[0];
+  found.breakaway_negative_Nm = breakaway[1];
   found.motion = fit_motion(trace, told);
   found.friction = find_friction(trace, friction_search(told.gear_ratio, found.motion));
   return found;
