@@ -17,6 +17,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -174,9 +175,11 @@ class JsonReader {
   void read(const std::string& key, std::vector<double>& values) { values = object_.numbers(key); }
   template <std::integral Integer>
   void read(const std::string& key, Integer& value) {
+    using Limits = std::numeric_limits<Integer>;
     const long long given = object_.integer(key);
+    require(std::in_range<Integer>(given), key,
+            "from " + std::to_string(Limits::min()) + " to " + std::to_string(Limits::max()));
     value = static_cast<Integer>(given);
-    require(static_cast<long long>(value) == given, key, "a smaller whole number");
   }
   template <std::size_t N>
   void read(const std::string& key, FixedString<N>& value) {
@@ -189,7 +192,7 @@ class JsonReader {
       // Compared so that what is not finite fails, too.
       const bool fits =
           std::floating_point<Number> || (std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]));
-      require(fits, key, "whole numbers");
+      require(fits, key, "whole numbers of at most nine digits");
       values[i] = static_cast<Number>(given[i]);
     }
   }

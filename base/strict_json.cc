@@ -2,6 +2,8 @@
 #include "base/strict_json.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
@@ -64,6 +66,9 @@ ordered_json parse_strict_json(std::string_view text, const std::string& source)
     }
     return true;
   };
+  // The parser takes it for the end.
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    throw InputError(source + ": not valid JSON: byte " + std::to_string(zero + 1) + " is a zero");
   try {
     return ordered_json::parse(text, refuse_repeated_keys);
   } catch (const ordered_json::parse_error& error) {
@@ -120,6 +125,9 @@ double StrictObject::number(const std::string& key) {
 long long StrictObject::integer(const std::string& key) {
   const ordered_json& value = get(key);
   if (!value.is_number_integer()) complain(key, "a whole number");
+  constexpr auto kMost = std::numeric_limits<long long>::max();
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(kMost))
+    complain(key, "a whole number up to " + std::to_string(kMost));
   return value.get<long long>();
 }
 

@@ -23,6 +23,7 @@ template <typename Json>
 void fields(Json& json, IntervalEstimate& estimate) {
   json("value", estimate.value);
   json("half_width_95", estimate.half_width_95);
+  json.require(estimate.half_width_95 >= 0.0, "half_width_95", "0 or more");
 }
 
 template <typename Json>
@@ -49,9 +50,12 @@ void fields(Json& json, FrictionAtSpeed& point) {
   std::optional<double> temperature_C;
   if (std::isfinite(point.temperature_C)) temperature_C = point.temperature_C;
   json("temperature_C", temperature_C);
+  json.require(!temperature_C || (*temperature_C > -273.15 && *temperature_C < 1000.0), "temperature_C",
+               "from -273.15 to 1000");
   point.temperature_C = temperature_C.value_or(std::numeric_limits<double>::quiet_NaN());
   json("torque_Nm", point.torque_Nm.value);
   json("half_width_95_Nm", point.torque_Nm.half_width_95);
+  json.require(point.torque_Nm.half_width_95 >= 0.0, "half_width_95_Nm", "0 or more");
 }
 
 template <typename Json>

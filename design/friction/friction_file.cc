@@ -72,7 +72,9 @@ void fields(Json& json, FitRecord& fit) {
   json("cost_torque", fit.cost_torque);
   json("seed", fit.seed);
   json("generations", fit.generations);
+  json.require(fit.generations >= 0, "generations", "0 or more");
   json("evaluations", fit.evaluations);
+  json.require(fit.evaluations >= 0, "evaluations", "0 or more");
   json("stopped", fit.stopped);
   json("best_by_generation", fit.best_by_generation);
   json("residuals", fit.residuals);

@@ -89,7 +89,9 @@ TEST(JsonFields, NamesPlaceValueAndWhatIsAllowed) {
   EXPECT_EQ(refusal_with("\"value\": 2.0", "\"value\": 2, \"more\": 1"),
             "a.json: parts[1].more: unknown key");
   EXPECT_EQ(refusal_with("\"number\": -7", "\"number\": 4294967296"),
-            "a.json: number = 4294967296: must be a smaller whole number");
+            "a.json: number = 4294967296: must be from -2147483648 to 2147483647");
+  EXPECT_EQ(refusal_with("\"number\": -7", "\"number\": 18446744073709551615"),
+            "a.json: number = 18446744073709551615: must be a whole number up to 9223372036854775807");
   EXPECT_EQ(refusal_with("    5,\n    6", "5, 6.5").substr(0, 14), "a.json: pair =");
   EXPECT_NE(refusal_with("\"word\": \"word\"", "\"word\": \"too long a word\"").find("at most 7 bytes"),
             std::string::npos);

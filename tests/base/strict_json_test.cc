@@ -29,6 +29,7 @@ TEST(StrictJson, RefusesWhatNestsTooDeepForWhoeverWalksThroughIt) {
 
 TEST(StrictJson, SaysWhereReadingStoppedAndWhatStandsThere) {
   EXPECT_EQ(refusal(""), "a.json: is empty: JSON is expected, an object in braces");
+  EXPECT_EQ(refusal(std::string("{}\0{}", 5)), "a.json: not valid JSON: byte 3 is a zero");
   EXPECT_EQ(refusal("\n speed_rpm,torque\n"),
             "a.json: is no JSON: begins with 'speed_rpm,torque', where JSON of ours begins with {");
   EXPECT_EQ(refusal("{\n  \"torque_Nm\": 1,\n}"),
