@@ -162,10 +162,9 @@ class JsonReader {
     if (object_.has(key)) throw InputError(object_.where("") + explained);
   }
   void format(int expected, const std::string& advice) {
-    const long long given = object_.integer("format");
-    if (given != expected)
-      throw InputError(object_.where("format") + " = " + std::to_string(given) +
-                       ": this program reads format " + std::to_string(expected) + "; " + advice);
+    if (object_.integer("format") != expected)
+      throw InputError(object_.shown("format") + ": this program reads format " + std::to_string(expected) +
+                       "; " + advice);
   }
 
  private:
@@ -185,15 +184,19 @@ class JsonReader {
   void read(const std::string& key, FixedString<N>& value) {
     value = FixedString<N>(object_.text(key, N - 1));
   }
-  template <typename Number, std::size_t N>
-  void read(const std::string& key, std::array<Number, N>& values) {
-    const std::vector<double> given = object_.numbers(key, N);
+  template <std::size_t N>
+  void read(const std::string& key, std::array<double, N>& values) {
+    numbers(key, values);
+  }
+  template <std::size_t N>
+  void read(const std::string& key, std::array<std::int32_t, N>& values) {
+    std::array<double, N> given{};
+    numbers(key, given);
     for (std::size_t i = 0; i < N; ++i) {
       // Compared so that what is not finite fails, too.
-      const bool fits =
-          std::floating_point<Number> || (std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]));
-      require(fits, key, "whole numbers of at most nine digits");
-      values[i] = static_cast<Number>(given[i]);
+      require(std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]), key,
+              "whole numbers of at most nine digits");
+      values[i] = static_cast<std::int32_t>(given[i]);
     }
   }
 
