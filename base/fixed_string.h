@@ -24,6 +24,9 @@ struct FixedString {
     return {bytes.data(),
             static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '\0') - bytes.begin())};
   }
+  bool is_printable() const noexcept {
+    return std::ranges::all_of(view(), [](char c) { return c >= ' ' && c <= '~'; });
+  }
   bool operator==(const FixedString&) const = default;
 };
 

@@ -8,7 +8,8 @@
 //   }
 //
 // A field is a number, a truth value, a text, a list of numbers, another struct with fields(), a vector of such structs, or one of these
-// that may be missing (std::optional). The reader is as strict as base/strict_json.h and throws InputError. Not real-time.
+// that may be missing (std::optional). Both ways keep to what fields() requires of a value, and throw InputError where it does not hold. The
+// reader is as strict as base/strict_json.h. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -23,11 +24,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/fixed_string.h"
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/strict_json.h"
 
 namespace strainwave {
@@ -40,14 +43,44 @@ concept HasFields = requires(Json& json, Value& value) {
   fields(json, value);
 };
 
+/// The numbers that a field may be.
+struct NumberRange {
+  double least = 0.0;
+  double most = 0.0;
+  bool above_least = false;  ///< `least` itself is not allowed
+
+  /// False of NaN.
+  bool holds(double value) const noexcept {
+    return (above_least ? value > least : value >= least) && value <= most;
+  }
+  std::string text() const {
+    return above_least ? "above " + number_text(least) + " and at most " + number_text(most)
+                       : "from " + number_text(least) + " to " + number_text(most);
+  }
+};
+
+/// A number within `range`, or a list of such numbers.
+template <typename Json, typename Value>
+void ranged(Json& json, const std::string& key, Value& value, const NumberRange& range) {
+  json(key, value);
+  if constexpr (std::is_arithmetic_v<Value>)
+    json.require(range.holds(value), key, range.text());
+  else
+    json.require(std::ranges::all_of(value, [&](double entry) { return range.holds(entry); }), key,
+                 range.text() + " each");
+}
+
 class JsonWriter {
  public:
   nlohmann::ordered_json document = nlohmann::ordered_json::object();
 
+  /// `path`: the key of the object that is written.
+  explicit JsonWriter(std::string path = "") : path_(std::move(path)) {}
+
   template <typename Value>
   void operator()(const std::string& key, Value& value) {
     if constexpr (HasFields<Value, JsonWriter>) {
-      JsonWriter part;
+      JsonWriter part(place().path_of(key));
       fields(part, value);
       document[key] = std::move(part.document);
     } else {
@@ -61,6 +94,7 @@ class JsonWriter {
   template <std::size_t N>
   void operator()(const std::string& key, FixedString<N>& value) {
     document[key] = value.view();
+    require(value.is_printable(), key, "printable ASCII characters");
   }
   template <typename Entry>
   requires HasFields<Entry, JsonWriter>
@@ -72,7 +106,10 @@ class JsonWriter {
   /// An enumeration or a truth value, by its name.
   template <typename Value, std::size_t N>
   void name(const std::string& key, Value& value, const std::array<const char*, N>& names) {
-    document[key] = names[static_cast<std::size_t>(value)];
+    const auto number = static_cast<std::size_t>(value);
+    document[key] = number;
+    require(number < N, key, "from 0 to " + std::to_string(N - 1));
+    document[key] = names[number];
   }
   void numbers(const std::string& key, std::span<double> values) { document[key] = values; }
   /// In rows of `columns`.
@@ -80,23 +117,33 @@ class JsonWriter {
     auto& rows = document[key] = nlohmann::ordered_json::array();
     for (; !values.empty(); values = values.subspan(columns)) rows.push_back(values.first(columns));
   }
-  /// `count` objects, when read from `least` to `most`; `entry_fields(json, index)` has the fields of one.
+  /// `count` objects, from `least` to `most`; `entry_fields(json, index)` has the fields of one.
   template <typename EntryFields>
-  void list(const std::string& key, std::int32_t& count, std::size_t, std::size_t,
+  void list(const std::string& key, std::int32_t& count, std::size_t least, std::size_t most,
             const EntryFields& entry_fields) {
+    document[key] = count;
+    require(std::cmp_greater_equal(count, least) && std::cmp_less_equal(count, most), key,
+            "a list of " + std::to_string(least) + " to " + std::to_string(most));
     auto& entries = document[key] = nlohmann::ordered_json::array();
-    for (std::int32_t i = 0; i < count; ++i) {
-      JsonWriter entry;
-      entry_fields(entry, static_cast<std::size_t>(i));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      JsonWriter entry(place().path_of(key, i));
+      entry_fields(entry, i);
       entries.push_back(std::move(entry.document));
     }
   }
-  /// What a value must be that is read.
-  void require(bool, const std::string&, const std::string&) {}
+  /// What a value must be, `key` one that was written or read. "gear_ratio = -1: must be above 0"
+  void require(bool good, const std::string& key, const std::string& allowed) const {
+    if (!good) place().complain(key, allowed);
+  }
   /// A key of another kind of file.
   void refuse(const std::string&, const std::string&) {}
   /// Of the file; of another one the reader says what to do.
   void format(int expected, const std::string&) { document["format"] = expected; }
+
+ private:
+  StrictObject place() const { return {document, "", path_}; }
+
+  std::string path_;
 };
 
 class JsonReader {
@@ -156,7 +203,7 @@ class JsonReader {
     }
   }
   void require(bool good, const std::string& key, const std::string& allowed) const {
-    if (!good) throw InputError(object_.shown(key) + ": must be " + allowed);
+    if (!good) object_.complain(key, allowed);
   }
   void refuse(const std::string& key, const std::string& explained) const {
     if (object_.has(key)) throw InputError(object_.where("") + explained);
@@ -183,6 +230,7 @@ class JsonReader {
   template <std::size_t N>
   void read(const std::string& key, FixedString<N>& value) {
     value = FixedString<N>(object_.text(key, N - 1));
+    require(value.is_printable(), key, "printable ASCII characters");
   }
   template <std::size_t N>
   void read(const std::string& key, std::array<double, N>& values) {
@@ -205,19 +253,26 @@ class JsonReader {
 
 /// The whole of a file.
 template <typename Value>
-std::string json_text(Value value) {
+nlohmann::ordered_json to_document(Value value) {
   JsonWriter writer;
   fields(writer, value);
-  return writer.document.dump(2) + "\n";
+  return std::move(writer.document);
 }
 template <typename Value>
-Value from_json_text(std::string_view text, const std::string& source) {
-  const nlohmann::ordered_json document = parse_strict_json(text, source);
+std::string json_text(const Value& value) {
+  return to_document(value).dump(2) + "\n";
+}
+template <typename Value>
+Value from_document(const nlohmann::ordered_json& document, const std::string& source) {
   JsonReader reader(StrictObject(document, source));
   Value value;
   fields(reader, value);
   reader.finish();
   return value;
+}
+template <typename Value>
+Value from_json_text(std::string_view text, const std::string& source) {
+  return from_document<Value>(parse_strict_json(text, source), source);
 }
 
 }  // namespace strainwave

@@ -19,6 +19,8 @@ namespace {
 /// Beyond it whoever walks through a document runs out of stack.
 constexpr int kDeepest = 32;
 constexpr std::size_t kShown = 40;
+/// Of a value.
+constexpr std::size_t kMostShown = 60;
 
 /// Whether reading stopped in the digits behind a decimal comma: "inertia_kgm2": 0,356
 bool stopped_behind_comma(std::string_view text, std::size_t at) {
@@ -90,12 +92,25 @@ bool StrictObject::has(const std::string& key) const {
   return value_->contains(key);
 }
 
+std::string StrictObject::path_of(const std::string& key) const {
+  return (path_.empty() ? "" : path_ + ".") + printable(key);
+}
+
+std::string StrictObject::path_of(const std::string& key, std::size_t index) const {
+  return path_of(key) + "[" + std::to_string(index) + "]";
+}
+
 std::string StrictObject::where(const std::string& key) const {
-  return source_ + ": " + (path_.empty() ? "" : path_ + ".") + printable(key);
+  return (source_.empty() ? "" : source_ + ": ") + path_of(key);
 }
 
 std::string StrictObject::shown(const std::string& key) const {
-  return where(key) + " = " + value_->at(key).dump().substr(0, 60);
+  if (!has(key) || value_->at(key).is_object()) return where(key);
+  const ordered_json& value = value_->at(key);
+  const std::string text = value.is_number_float()
+                               ? number_text(value.get<double>())
+                               : value.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  return where(key) + " = " + (text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...");
 }
 
 void StrictObject::complain(const std::string& key, const std::string& allowed) const {
@@ -146,7 +161,7 @@ std::string StrictObject::text(const std::string& key, std::size_t max_bytes) {
 }
 
 StrictObject StrictObject::object(const std::string& key) {
-  return {get(key), source_, (path_.empty() ? "" : path_ + ".") + key};
+  return {get(key), source_, path_of(key)};
 }
 
 std::vector<StrictObject> StrictObject::objects(const std::string& key, std::size_t min, std::size_t max) {
@@ -156,10 +171,7 @@ std::vector<StrictObject> StrictObject::objects(const std::string& key, std::siz
   if (!value.is_array() || value.size() < min || value.size() > max)
     complain(key, "a list of " + count + " objects");
   std::vector<StrictObject> result;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    result.emplace_back(value[i], source_,
-                        (path_.empty() ? "" : path_ + ".") + key + "[" + std::to_string(i) + "]");
-  }
+  for (std::size_t i = 0; i < value.size(); ++i) result.emplace_back(value[i], source_, path_of(key, i));
   return result;
 }
 

@@ -43,13 +43,17 @@ class StrictObject {
   /// Accepts a key without reading it.
   void ignore(const std::string& key) { read_.insert(key); }
   void finish() const;
-  /// "source: path.key": what messages begin with; and with its value.
+  /// "path.key", and of an entry of a list "path.key[index]".
+  std::string path_of(const std::string& key) const;
+  std::string path_of(const std::string& key, std::size_t index) const;
+  /// "source: path.key": what messages begin with; and with its value, unless that is an object.
   std::string where(const std::string& key) const;
   std::string shown(const std::string& key) const;
+  /// "source: path.key = value: must be `allowed`".
+  [[noreturn]] void complain(const std::string& key, const std::string& allowed) const;
 
  private:
   const nlohmann::ordered_json& get(const std::string& key);
-  [[noreturn]] void complain(const std::string& key, const std::string& allowed) const;
 
   const nlohmann::ordered_json* value_;
   std::string source_;

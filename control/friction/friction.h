@@ -11,6 +11,8 @@ struct FrictionParameters {
   double static_Nm = 0.0;        ///< Fs: largest torque that the joint at rest withstands.
   double coulomb_Nm = 0.0;       ///< Fc: friction of slow motion, beyond the Stribeck range.
   double viscous_Nms_rad = 0.0;  ///< Fv: slope over speed.
+
+  bool operator==(const FrictionParameters&) const = default;
 };
 
 /// Shape of the transition from static to Coulomb friction; it does not change with temperature.

@@ -30,24 +30,33 @@ void fields(Json& json, FrictionLaw& law) {
   json.require(law.stribeck.exponent >= 0.5, "stribeck_exponent", "at least 0.5");
 }
 
+inline constexpr NumberRange kMembershipCentre_rad_s{0.0, 1e15};
+inline constexpr NumberRange kMembershipWidth{1e-9, 1e15};  // rad/s or degC
+inline constexpr NumberRange kTemperature_C{-273.15, 1e15};
+
 template <typename Json>
 void fields(Json& json, VelocityMemberships& velocity) {
-  json("zero_center_rad_s", velocity.zero_center_rad_s);
-  json("zero_width_rad_s", velocity.zero_width_rad_s);
-  json("high_center_rad_s", velocity.high_center_rad_s);
-  json("high_width_rad_s", velocity.high_width_rad_s);
+  ranged(json, "zero_center_rad_s", velocity.zero_center_rad_s, kMembershipCentre_rad_s);
+  ranged(json, "zero_width_rad_s", velocity.zero_width_rad_s, kMembershipWidth);
+  ranged(json, "high_center_rad_s", velocity.high_center_rad_s, kMembershipCentre_rad_s);
+  ranged(json, "high_width_rad_s", velocity.high_width_rad_s, kMembershipWidth);
 }
 
-/// Keys, types and sizes; ranges are find_defect()'s.
+/// All but the ranges of friction, which a fit may leave: those are the gain table's.
 template <typename Json>
 void fields(Json& json, FuzzyFriction& friction) {
-  json("temperature_min_C", friction.temperature_min_C);
-  json("temperature_max_C", friction.temperature_max_C);
+  ranged(json, "temperature_min_C", friction.temperature_min_C, kTemperature_C);
+  ranged(json, "temperature_max_C", friction.temperature_max_C, kTemperature_C);
+  json.require(friction.temperature_min_C < friction.temperature_max_C, "temperature_max_C",
+               "above temperature_min_C");
   json("velocity", friction.velocity);
   json.list("rules", friction.rule_count, 1, kMaxTemperatureRules, [&](auto& entry, std::size_t i) {
-    entry("center_C", friction.rules[i].center_C);
-    entry("width_C", friction.rules[i].width_C);
-    fields(entry, friction.rules[i].friction);
+    TemperatureRule& rule = friction.rules[i];
+    ranged(entry, "center_C", rule.center_C, kTemperature_C);
+    entry.require(i == 0 || friction.rules[i - 1].center_C < rule.center_C, "center_C",
+                  "above that of the rule before");
+    ranged(entry, "width_C", rule.width_C, kMembershipWidth);
+    fields(entry, rule.friction);
   });
 }
 

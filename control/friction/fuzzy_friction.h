@@ -26,6 +26,8 @@ struct TemperatureRule {
   double center_C = 0.0;
   double width_C = 1.0;
   FrictionParameters friction;
+
+  bool operator==(const TemperatureRule&) const = default;
 };
 
 /// Layer 2, joint side. mu_zero is 1 up to zero_center and falls as exp(-((|w|-zero_center)/zero_width)^2)
@@ -41,6 +43,7 @@ struct VelocityMemberships {
   constexpr StribeckShape stribeck() const noexcept { return {0.5 * zero_width_rad_s, 2.0}; }
   /// alpha_0 = mu_zero / (mu_zero + mu_high), in (0, 1), even in velocity.
   double zero_weight(double velocity_rad_s) const noexcept;
+  bool operator==(const VelocityMemberships&) const = default;
 };
 
 /// The whole model, as it travels in a gain table. 1 <=
@@ -60,6 +63,7 @@ struct FuzzyFriction {
 
   /// The largest viscous coefficient of a rule, >= 0.
   double largest_viscous_Nms_rad() const noexcept;
+  bool operator==(const FuzzyFriction&) const = default;
 };
 
 }  // namespace strainwave

@@ -18,6 +18,7 @@ struct BoxRange {
 
   bool holds(double value) const noexcept { return value >= from && value <= to; }
   bool holds(const BoxRange& part) const noexcept { return from <= part.from && to >= part.to; }
+  bool operator==(const BoxRange&) const = default;
 };
 
 /// Cells of all delays together, and the delays there may be.
@@ -47,6 +48,8 @@ struct BoxCell {
   BoxRange link_inertia_kgm2;
   /// Upper triangle, row by row, a row for each state of the loop; zeros after it, and in the integral's row without an integrator.
   std::array<double, kCellEntries> P{};
+
+  bool operator==(const BoxCell&) const = default;
 };
 
 /// Rigid: inertias, stiffness, damping and lead are 0, in the cells, too, and the inertia is the table's; no cell: nothing is proved. The
@@ -69,6 +72,7 @@ struct CertifiedBox {
   std::size_t entries_of(const BoxCell& cell) const noexcept {
     return triangle_entries(loop_states(plant_states(), cell.delay_periods, lead_periods));
   }
+  bool operator==(const CertifiedBox&) const = default;
 };
 
 }  // namespace strainwave

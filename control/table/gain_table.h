@@ -39,6 +39,8 @@ struct PlantIdentity {
   double inertia_kgm2 = 0.0;    ///< J > 0, at the joint side
   double gear_ratio = 0.0;      ///< N > 0
   double period_s = 0.0;        ///< ts > 0
+
+  bool operator==(const PlantIdentity&) const = default;
 };
 
 /// Weights of the quadratic cost sum x'Wx + u'Ru with W = diag(integral, position, velocity), R = torque.
@@ -47,6 +49,8 @@ struct CostWeights {
   double position = 0.0;
   double velocity = 0.0;
   double torque = 0.0;
+
+  bool operator==(const CostWeights&) const = default;
 };
 
 /// Gains of one controller with their Lyapunov matrices. Rule 0 is "zero velocity", rule i the i-th
@@ -72,6 +76,7 @@ struct FeedbackGains {
     Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(P[static_cast<std::size_t>(rule)].data()) = lyapunov;
   }
   bool scheduled() const noexcept { return rule_count > 1; }
+  bool operator==(const FeedbackGains&) const = default;
 };
 
 /// How the plant was sampled for the design: as the loop does it, or as Zhao (2006) did.
@@ -84,6 +89,8 @@ struct Provenance {
   FixedString<32> tool;             ///< program and version
   FixedString<72> friction_sha256;  ///< of the friction file that the rules came from, in hex
   FixedString<64> note;
+
+  bool operator==(const Provenance&) const = default;
 };
 
 /// One table.
@@ -96,12 +103,9 @@ struct GainTable {
   double torque_limit_Nm = 0.0;  ///< symmetric, joint side; the joint's own limit applies as well
   FeedbackGains primary;         ///< C4 (or C1 to C3)
   Provenance provenance;
-};
 
-/// Structural check: counts, finite numbers, signs and ranges of every field. The first defect in words (key,
-/// value, what is allowed), or nothing. Whether the gains stabilise the plant is certificate.h's question.
-/// Not real-time.
-std::optional<std::string> find_defect(const GainTable& table);
+  bool operator==(const GainTable&) const = default;
+};
 
 /// Whether two of a joint's numbers are one, however they were written and read: |a - b| <= 1e-9 |b|. False with NaN.
 bool is_same_number(double a, double b) noexcept;

@@ -1,30 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/gain_table_json.h"
 
+#include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
+#include <span>
 
 #include "base/input_error.h"
 #include "base/json_fields.h"
 #include "base/text_file.h"
 #include "control/friction/friction_json.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
+
+namespace {
+
+// In SI: what is beyond is no joint's, and no arithmetic with what is within overflows.
+constexpr double kLeast = 1e-9;
+constexpr double kMost = 1e15;
+constexpr NumberRange kAny{-kMost, kMost};
+constexpr NumberRange kNotNegative{0.0, kMost};
+constexpr NumberRange kPositive{0.0, kMost, true};
+// Of the torque limit: a joint that needs more to break away has less left for motion than friction takes; the coldest rule of the
+// catalogue's joint needs 0.17.
+constexpr double kMaxStaticShare = 0.5;
+
+}  // namespace
 
 template <typename Json>
 void fields(Json& json, PlantIdentity& plant) {
   json("joint_model", plant.joint_model);
+  json.require(!plant.joint_model.view().empty(), "joint_model", "named");
+  ranged(json, "inertia_kgm2", plant.inertia_kgm2, kPositive);
+  ranged(json, "gear_ratio", plant.gear_ratio, kPositive);
+  ranged(json, "period_s", plant.period_s, {kLeast, kMost});
   json("gear", plant.gear);
-  json("inertia_kgm2", plant.inertia_kgm2);
-  json("gear_ratio", plant.gear_ratio);
-  json("period_s", plant.period_s);
+  if (plant.gear.view().empty()) return;
+  const Gear* gear = find_gear(plant.gear.view());
+  json.require(gear != nullptr, "gear", "empty or one of " + gear_names());
+  json.require(gear == nullptr || is_same_number(plant.gear_ratio, gear->ratio), "gear",
+               "a gear of gear_ratio = " + number_text(plant.gear_ratio));
 }
 
 template <typename Json>
 void fields(Json& json, CostWeights& weights) {
-  json("integral", weights.integral);
-  json("position", weights.position);
-  json("velocity", weights.velocity);
-  json("torque", weights.torque);
+  ranged(json, "integral", weights.integral, kNotNegative);
+  ranged(json, "position", weights.position, kPositive);
+  ranged(json, "velocity", weights.velocity, kNotNegative);
+  ranged(json, "torque", weights.torque, kPositive);
 }
 
 template <typename Json>
@@ -34,12 +58,23 @@ void fields(Json& json, FeedbackGains& gains) {
   json("has_integrator", has_integrator);
   gains.has_integrator = has_integrator ? 1 : 0;
   json("weights", gains.weights);
-  json("decay_rate", gains.decay_rate);
-  json("cost_bound", gains.cost_bound);
+  json.require((gains.weights.integral > 0.0) == has_integrator, "weights",
+               "above 0 for the integral exactly when there is an integrator");
+  ranged(json, "decay_rate", gains.decay_rate, {0.0, 1.0, true});
+  ranged(json, "cost_bound", gains.cost_bound, kNotNegative);
   json.list("rules", gains.rule_count, 1, kMaxRules, [&](auto& rule, std::size_t j) {
-    rule("F", gains.F[j]);
+    ranged(rule, "F", gains.F[j], kAny);
     rule.matrix("P", gains.P[j], kMaxStates);
+    const StateMatrix P = gains.lyapunov(static_cast<int>(j));
+    // NaN is not symmetric, either.
+    rule.require(P == P.transpose() && P.cwiseAbs().maxCoeff() <= kMost, "P", "symmetric");
+    rule.require(has_integrator || (gains.F[j][0] == 0.0 && P.row(0).isZero(0.0)), "P",
+                 "0, as F is, in the integral's row without an integrator");
   });
+  const bool scheduled = gains.scheduled();
+  const char* const expected = has_integrator ? (scheduled ? "C4" : "C3") : (scheduled ? "C2" : "C1");
+  json.require(gains.controller.view() == expected, "controller",
+               std::string(expected) + " for these states and this number of rules");
 }
 
 template <typename Json>
@@ -54,27 +89,24 @@ void fields(Json& json, Provenance& provenance) {
 namespace {
 
 template <typename Json>
-void range_field(Json& json, const std::string& key, BoxRange& range) {
+void range_field(Json& json, const std::string& key, BoxRange& range, double least = kLeast) {
   std::array ends{range.from, range.to};
-  json(key, ends);
+  ranged(json, key, ends, {least, kMost});
+  json.require(ends[0] <= ends[1], key, "from the smaller to the larger");
   range = {ends[0], ends[1]};
 }
 
 template <typename Json>
-void require_delay(Json& json, std::int32_t periods) {
-  json.require(periods >= 0 && periods <= kMaxBoxDelay, "delay_periods",
-               "whole periods from 0 to " + std::to_string(kMaxBoxDelay));
-}
-
-template <typename Json>
 void cell_fields(Json& json, const CertifiedBox& box, BoxCell& cell) {
-  json("delay_periods", cell.delay_periods);
-  require_delay(json, cell.delay_periods);
+  ranged(json, "delay_periods", cell.delay_periods,
+         {static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)});
   if (!box.rigid()) {
     range_field(json, "stiffness_Nm_rad", cell.stiffness_Nm_rad);
     range_field(json, "link_inertia_kgm2", cell.link_inertia_kgm2);
   }
-  json.numbers("P", std::span(cell.P).first(box.entries_of(cell)));
+  const std::span<double> P = std::span(cell.P).first(box.entries_of(cell));
+  json.numbers("P", P);
+  json.require(std::ranges::all_of(P, [](double entry) { return kAny.holds(entry); }), "P", kAny.text());
 }
 
 }  // namespace
@@ -89,11 +121,11 @@ void fields(Json& json, CertifiedBox& box) {
     range_field(json, "motor_inertia_kgm2", box.motor_inertia_kgm2);
     range_field(json, "link_inertia_kgm2", box.link_inertia_kgm2);
     range_field(json, "stiffness_Nm_rad", box.stiffness_Nm_rad);
-    range_field(json, "damping_Nms_rad", box.damping_Nms_rad);
+    range_field(json, "damping_Nms_rad", box.damping_Nms_rad, 0.0);
   }
   std::array delays{box.least_delay, box.most_delay};
-  json("delay_periods", delays);
-  for (const std::int32_t delay : delays) require_delay(json, delay);
+  ranged(json, "delay_periods", delays, {0.0, kMaxBoxDelay});
+  json.require(delays[0] <= delays[1], "delay_periods", "from the smaller to the larger");
   box.least_delay = delays[0];
   box.most_delay = delays[1];
   if (spring) {
@@ -101,10 +133,35 @@ void fields(Json& json, CertifiedBox& box) {
     if (box.lead_periods != 0.0) lead_periods = box.lead_periods;
     json("lead_periods", lead_periods);
     box.lead_periods = lead_periods.value_or(0.0);
+    json.require(NumberRange{0.0, kMaxLeadPeriods}.holds(box.lead_periods), "lead_periods",
+                 "from 0 to " + number_text(kMaxLeadPeriods));
   }
   json.list("cells", box.cell_count, spring ? 1 : 0, kMaxBoxCells,
             [&](auto& cell, std::size_t i) { cell_fields(cell, box, box.cells[i]); });
 }
+
+namespace {
+
+// Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
+template <typename Json>
+void require_friction(Json& json, const GainTable& table) {
+  const double most_Nm = kMaxStaticShare * table.torque_limit_Nm;
+  for (int i = 0; i < table.friction.rule_count; ++i) {
+    const auto& [static_Nm, coulomb_Nm, viscous_Nms_rad] =
+        table.friction.rules[static_cast<std::size_t>(i)].friction;
+    const auto require = [&](const char* key, double value, const NumberRange& range, const char* why) {
+      json.require(range.holds(value),
+                   "friction.rules[" + std::to_string(i) + "]." + key + " = " + number_text(value),
+                   range.text() + why);
+    };
+    require("static_Nm", static_Nm, {0.0, most_Nm},
+            ", half of torque_limit_Nm, or friction takes more than it leaves");
+    require("coulomb_Nm", coulomb_Nm, {0.0, static_Nm}, ", static_Nm");
+    require("viscous_Nms_rad", viscous_Nms_rad, kNotNegative, "");
+  }
+}
+
+}  // namespace
 
 template <typename Json>
 void fields(Json& json, GainTable& table) {
@@ -112,11 +169,17 @@ void fields(Json& json, GainTable& table) {
   // The format first: another one has other keys.
   json.format(kGainTableFormat, "design the table again");
   json("name", table.name);
+  json.require(!table.name.view().empty(), "name", "a name");
   json("plant", table.plant);
   json("box", table.box);
+  json.require(table.box.rigid() || !table.plant.gear.view().empty(), "plant.gear",
+               "named where the joint has a spring");
   json("friction", table.friction);
-  json("torque_limit_Nm", table.torque_limit_Nm);
+  ranged(json, "torque_limit_Nm", table.torque_limit_Nm, kPositive);
+  require_friction(json, table);
   json("primary", table.primary);
+  json.require(table.primary.rule_count == 1 || table.primary.rule_count == 1 + table.friction.rule_count,
+               "primary.rules", "1 (temperature-free) or 1 more than the temperature rules of friction");
   json("provenance", table.provenance);
 }
 
@@ -124,10 +187,21 @@ std::string to_json(const GainTable& table) {
   return json_text(table);
 }
 
+// A table is what its keys say, and zeros beyond: no two tables that act alike have other bytes.
+std::optional<std::string> find_defect(const GainTable& table) {
+  if (table.format != kGainTableFormat)
+    return "format = " + std::to_string(table.format) + ": this program reads format " +
+           std::to_string(kGainTableFormat);
+  try {
+    if (from_document<GainTable>(to_document(table), "table") == table) return std::nullopt;
+    return "holds bytes that none of its keys names: must be 0 beyond its counts and texts";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 GainTable gain_table_from_json(std::string_view text, const std::string& source) {
-  const auto table = from_json_text<GainTable>(text, source);
-  if (const auto defect = find_defect(table)) throw InputError(source + ": " + *defect);
-  return table;
+  return from_json_text<GainTable>(text, source);
 }
 
 GainTable read_gain_table(const std::filesystem::path& path) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Not real-time.
+// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Here is what a table must be in its
+// structure: counts, finite numbers, signs and ranges of every field. Not real-time.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,12 +12,15 @@
 
 namespace strainwave {
 
-/// Pretty-printed JSON that reads back to the same bits.
+/// The first defect of a table that came in another way than by JSON, in words (key, value, what is allowed), or nothing. Whether the gains
+/// stabilise the plant is box_certificate.h's question.
+std::optional<std::string> find_defect(const GainTable& table);
+
+/// Pretty-printed JSON that reads back to the same bits. Throws InputError of a table with a defect.
 std::string to_json(const GainTable& table);
 
 /// Reads what to_json wrote. Throws InputError naming `source`, the key, the value and what is allowed:
-/// malformed JSON, unknown, missing or repeated keys, wrong types and sizes, another format, and everything
-/// find_defect() finds.
+/// malformed JSON, unknown, missing or repeated keys, wrong types and sizes, another format, and every defect.
 GainTable gain_table_from_json(std::string_view text, const std::string& source);
 
 /// The same from and to a file. Writing replaces the file only once the new text is whole.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "control/table/box_certificate.h"
+#include "control/table/gain_table_json.h"
 #include "control/table/spring_certificate.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/input_error.h"
+#include "control/table/gain_table_json.h"
 #include "design/gains/controller_lmi.h"
 #include "design/gains/euler_plant.h"
 #include "design/gains/ts_plant.h"
