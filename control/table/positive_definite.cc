@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/positive_definite.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -58,23 +59,6 @@ Balanced balance(const ProofMatrix& matrix, const ProofMatrix& error, int size) 
   return balanced;
 }
 
-// Plain Cholesky, in the order that Rump's bound assumes; true when every pivot is positive.
-bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
-  ProofMatrix factor = ProofMatrix::Zero(size, size);
-  for (int j = 0; j < size; ++j) {
-    double pivot = matrix(j, j);
-    for (int k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
-    if (!(pivot > 0.0)) return false;
-    factor(j, j) = std::sqrt(pivot);
-    for (int i = j + 1; i < size; ++i) {
-      double entry = matrix(i, j);
-      for (int k = 0; k < j; ++k) entry -= factor(i, k) * factor(j, k);
-      factor(i, j) = entry / factor(j, j);
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const ProofMatrix& error,
@@ -93,7 +77,9 @@ PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const P
   for (int i = 0; i < size; ++i) shifted(i, i) -= shift;
   if (!shifted.allFinite()) return result;
 
-  result.certain = cholesky_succeeds(shifted, size);
+  // In any order of summation. What overflows leaves a factor that is not finite, and is no proof.
+  const Eigen::LLT<ProofMatrix> cholesky(shifted);
+  result.certain = cholesky.info() == Eigen::Success && cholesky.matrixLLT().allFinite();
   const Eigen::SelfAdjointEigenSolver<ProofMatrix> solver(balanced.matrix, Eigen::EigenvaluesOnly);
   const double estimate = solver.eigenvalues()(0) - shift;
   // The estimate has its own rounding; Cholesky decides the sign.
