@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/units.h"
 #include "control/joint/torsion_spring.h"
-#include "control/units.h"
 
 namespace strainwave {
 

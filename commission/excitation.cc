@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/units.h"
 #include "commission/motion_spans.h"
-#include "control/units.h"
 
 namespace strainwave {
 

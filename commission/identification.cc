@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/units.h"
 #include "commission/motion_spans.h"
-#include "control/units.h"
 
 namespace strainwave {
 

@@ -7,8 +7,8 @@
 #include <complex>
 
 #include "base/printable.h"
+#include "base/units.h"
 #include "commission/report_chart.h"
-#include "control/units.h"
 
 namespace strainwave {
 

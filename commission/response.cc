@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 
+#include "base/units.h"
 #include "commission/motion_spans.h"
 #include "commission/sine_sum.h"
-#include "control/units.h"
 
 namespace strainwave {
 

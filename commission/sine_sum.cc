@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/units.h"
 #include "commission/excitation.h"
 #include "commission/motion_spans.h"
-#include "control/units.h"
 
 namespace strainwave {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "base/units.h"
 #include "control/joint/gear_catalogue.h"
-#include "control/units.h"
 #include "design/friction/friction_file.h"
 
 namespace strainwave {

@@ -3,9 +3,9 @@
 
 #include "base/input_error.h"
 #include "base/toml_section.h"
+#include "base/units.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/table/gain_table_json.h"
-#include "control/units.h"
 
 namespace strainwave {
 

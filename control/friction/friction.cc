@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

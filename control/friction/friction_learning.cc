@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -6,8 +6,8 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/units.h"
 #include "control/joint/catalogue_csv.h"
-#include "control/units.h"
 
 namespace strainwave {
 

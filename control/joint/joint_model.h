@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "base/units.h"
 #include "control/friction/friction.h"
-#include "control/units.h"
 
 namespace strainwave {
 

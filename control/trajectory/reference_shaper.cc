@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/printable.h"
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
-#include "control/units.h"
+#include "base/units.h"
 #include "daemon/config/config_doubts.h"
 #include "daemon/config/config_drive_mode.h"
 #include "daemon/config/config_encoder.h"

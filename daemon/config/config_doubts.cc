@@ -12,7 +12,7 @@
 
 #include "base/printable.h"
 #include "base/protected_file.h"
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

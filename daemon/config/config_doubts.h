@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/toml_section.h"
+#include "base/units.h"
 #include "control/table/gain_table.h"
-#include "control/units.h"
 #include "daemon/config/config.h"
 #include "daemon/realtime/joint/joint_loop.h"
 #include "daemon/realtime/loop/loop_parts.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/realtime/loop/periodic_clock.h"
 #include "drivers/gpio/gpio_joint.h"

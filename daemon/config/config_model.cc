@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/printable.h"
+#include "base/units.h"
 #include "control/joint/gear_catalogue.h"
-#include "control/units.h"
 
 namespace strainwave {
 

@@ -7,11 +7,11 @@
 #include <sstream>
 
 #include "base/input_error.h"
+#include "base/units.h"
 #include "control/friction/friction_json.h"
 #include "control/joint/friction_estimate.h"
 #include "control/joint/gear_catalogue.h"
 #include "control/joint/joint_catalogue.h"
-#include "control/units.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/realtime/loop/periodic_clock.h"
 #include "drivers/faulty_actuator.h"

@@ -9,8 +9,8 @@
 #include "base/json_fields.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "base/units.h"
 #include "control/friction/friction_json.h"
-#include "control/units.h"
 #include "design/friction/friction_fit.h"
 #include "design/friction/sha256.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "sim/joint/flexible_physics.h"
 
 namespace strainwave::flexible {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "sim/joint/flexible_equations.h"
 
 namespace strainwave {

@@ -4,8 +4,8 @@
 // docs/theory.md), Stribeck velocity 20 RPM of the motor, and data/rhs17_datasheet.csv.
 #pragma once
 
+#include "base/units.h"
 #include "control/joint/gear_catalogue.h"
-#include "control/units.h"
 #include "sim/joint/joint_plant.h"
 
 namespace strainwave {

@@ -8,7 +8,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/units.h"
+#include "base/units.h"
 
 namespace strainwave {
 

@@ -10,8 +10,8 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/units.h"
 #include "control/table/gain_table_json.h"
-#include "control/units.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/link_limit.h"
 

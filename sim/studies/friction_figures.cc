@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/csv.h"
-#include "control/units.h"
+#include "base/units.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/chapter6_figures.h"
 #include "sim/studies/text_table.h"

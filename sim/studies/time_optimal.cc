@@ -7,7 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/units.h"
+#include "base/units.h"
 #include "sim/joint/root.h"
 
 namespace strainwave {

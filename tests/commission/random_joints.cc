@@ -6,9 +6,9 @@
 #include <random>
 
 #include "base/csv.h"
+#include "base/units.h"
 #include "control/joint/friction_estimate.h"
 #include "control/joint/gear_catalogue.h"
-#include "control/units.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave::testing {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/units.h"
 #include "commission/report_chart.h"
-#include "control/units.h"
 
 namespace strainwave {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.h"
 #include "control/joint/joint_catalogue.h"
-#include "control/units.h"
 
 namespace strainwave {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "tests/control/controlled_joint.h"
 
 namespace strainwave::testing {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "tests/support/reference_joint.h"
 
 namespace strainwave {

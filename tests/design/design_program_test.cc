@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "base/text_file.h"
+#include "base/units.h"
 #include "commission/commission_record.h"
 #include "control/table/gain_table_json.h"
-#include "control/units.h"
 #include "design/friction/friction_file.h"
 #include "design/joint_defaults.h"
 

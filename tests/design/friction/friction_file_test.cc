@@ -7,7 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/text_file.h"
-#include "control/units.h"
+#include "base/units.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "sim/studies/flexible_study.h"
 #include "sim/studies/link_limit.h"
 #include "tests/support/two_mass_joint.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "control/units.h"
+#include "base/units.h"
 #include "tests/drivers/can/drive_bench.h"
 #include "tests/support/flexible_bench.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/units.h"
+#include "base/units.h"
 
 #include <gtest/gtest.h>
 
