@@ -30,7 +30,7 @@
 
 #include "base/fixed_string.h"
 #include "base/input_error.h"
-#include "base/printable.h"
+#include "base/number_range.h"
 #include "base/strict_json.h"
 
 namespace strainwave {
@@ -43,25 +43,9 @@ concept HasFields = requires(Json& json, Value& value) {
   fields(json, value);
 };
 
-/// The numbers that a field may be.
-struct NumberRange {
-  double least = 0.0;
-  double most = 0.0;
-  bool above_least = false;  ///< `least` itself is not allowed
-
-  /// False of NaN.
-  bool holds(double value) const noexcept {
-    return (above_least ? value > least : value >= least) && value <= most;
-  }
-  std::string text() const {
-    return above_least ? "above " + number_text(least) + " and at most " + number_text(most)
-                       : "from " + number_text(least) + " to " + number_text(most);
-  }
-};
-
 /// A number within `range`, or a list of such numbers.
 template <typename Json, typename Value>
-void ranged(Json& json, const std::string& key, Value& value, const NumberRange& range) {
+void ranged(Json& json, const std::string& key, Value& value, Range range) {
   json(key, value);
   if constexpr (std::is_arithmetic_v<Value>)
     json.require(range.holds(value), key, range.text());

@@ -93,9 +93,9 @@ struct TomlSection::Reader {
                         Range allowed) {
     const auto value = node.value<double>();
     const bool is_number = node.is_number() && value && std::isfinite(*value);
-    if (is_number && *value >= allowed.min && *value <= allowed.max) return *value;
-    section.refuse(key, "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) +
-                            " is allowed" + (node.is_string() ? ", without quotes" : ""));
+    if (is_number && allowed.holds(*value)) return *value;
+    section.refuse(
+        key, "a number " + allowed.text() + " is allowed" + (node.is_string() ? ", without quotes" : ""));
     return is_number ? std::clamp(*value, allowed.min, allowed.max) : allowed.min;
   }
 };

@@ -11,14 +11,9 @@
 #include <string_view>
 #include <vector>
 
-namespace strainwave {
+#include "base/number_range.h"
 
-struct Range {
-  double min;
-  double max;
-};
-/// Of a quantity that is above zero and has no other bounds.
-inline constexpr Range kPositive{1e-9, 1e9};
+namespace strainwave {
 
 /// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
 /// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead. After collect_errors() a

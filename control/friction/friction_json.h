@@ -30,16 +30,17 @@ void fields(Json& json, FrictionLaw& law) {
   json.require(law.stribeck.exponent >= 0.5, "stribeck_exponent", "at least 0.5");
 }
 
-inline constexpr NumberRange kMembershipCentre_rad_s{0.0, 1e15};
-inline constexpr NumberRange kMembershipWidth{1e-9, 1e15};  // rad/s or degC
-inline constexpr NumberRange kTemperature_C{-273.15, 1e15};
+/// In SI. No joint has larger numbers, and arithmetic with smaller ones cannot overflow.
+inline constexpr double kMost = 1e15;
+inline constexpr Range kNotNegative{0.0, kMost};
+inline constexpr Range kTemperature_C{-273.15, kMost};
 
 template <typename Json>
 void fields(Json& json, VelocityMemberships& velocity) {
-  ranged(json, "zero_center_rad_s", velocity.zero_center_rad_s, kMembershipCentre_rad_s);
-  ranged(json, "zero_width_rad_s", velocity.zero_width_rad_s, kMembershipWidth);
-  ranged(json, "high_center_rad_s", velocity.high_center_rad_s, kMembershipCentre_rad_s);
-  ranged(json, "high_width_rad_s", velocity.high_width_rad_s, kMembershipWidth);
+  ranged(json, "zero_center_rad_s", velocity.zero_center_rad_s, kNotNegative);
+  ranged(json, "zero_width_rad_s", velocity.zero_width_rad_s, kPositive);
+  ranged(json, "high_center_rad_s", velocity.high_center_rad_s, kNotNegative);
+  ranged(json, "high_width_rad_s", velocity.high_width_rad_s, kPositive);
 }
 
 /// All but the ranges of friction, which a fit may leave: those are the gain table's.
@@ -55,7 +56,7 @@ void fields(Json& json, FuzzyFriction& friction) {
     ranged(entry, "center_C", rule.center_C, kTemperature_C);
     entry.require(i == 0 || friction.rules[i - 1].center_C < rule.center_C, "center_C",
                   "above that of the rule before");
-    ranged(entry, "width_C", rule.width_C, kMembershipWidth);
+    ranged(entry, "width_C", rule.width_C, kPositive);
     fields(entry, rule.friction);
   });
 }

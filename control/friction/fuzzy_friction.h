@@ -24,7 +24,7 @@ struct TemperatureWeights {
 /// One rule of layer 1: "if T is about center_C, friction is ...". width_C > 0.
 struct TemperatureRule {
   double center_C = 0.0;
-  double width_C = 1.0;
+  double width_C = 0.0;
   FrictionParameters friction;
 
   bool operator==(const TemperatureRule&) const = default;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "base/input_error.h"
@@ -16,12 +15,7 @@ namespace strainwave {
 
 namespace {
 
-// In SI: what is beyond is no joint's, and no arithmetic with what is within overflows.
-constexpr double kLeast = 1e-9;
-constexpr double kMost = 1e15;
-constexpr NumberRange kAny{-kMost, kMost};
-constexpr NumberRange kNotNegative{0.0, kMost};
-constexpr NumberRange kPositive{0.0, kMost, true};
+constexpr Range kAny{-kMost, kMost};
 // Of the torque limit: a joint that needs more to break away has less left for motion than friction takes; the coldest rule of the
 // catalogue's joint needs 0.17.
 constexpr double kMaxStaticShare = 0.5;
@@ -32,10 +26,10 @@ template <typename Json>
 void fields(Json& json, PlantIdentity& plant) {
   json("joint_model", plant.joint_model);
   json.require(!plant.joint_model.view().empty(), "joint_model", "named");
+  json("gear", plant.gear);
   ranged(json, "inertia_kgm2", plant.inertia_kgm2, kPositive);
   ranged(json, "gear_ratio", plant.gear_ratio, kPositive);
-  ranged(json, "period_s", plant.period_s, {kLeast, kMost});
-  json("gear", plant.gear);
+  ranged(json, "period_s", plant.period_s, kPositive);
   if (plant.gear.view().empty()) return;
   const Gear* gear = find_gear(plant.gear.view());
   json.require(gear != nullptr, "gear", "empty or one of " + gear_names());
@@ -60,7 +54,7 @@ void fields(Json& json, FeedbackGains& gains) {
   json("weights", gains.weights);
   json.require((gains.weights.integral > 0.0) == has_integrator, "weights",
                "above 0 for the integral exactly when there is an integrator");
-  ranged(json, "decay_rate", gains.decay_rate, {0.0, 1.0, true});
+  ranged(json, "decay_rate", gains.decay_rate, {1e-9, 1.0});
   ranged(json, "cost_bound", gains.cost_bound, kNotNegative);
   json.list("rules", gains.rule_count, 1, kMaxRules, [&](auto& rule, std::size_t j) {
     ranged(rule, "F", gains.F[j], kAny);
@@ -89,9 +83,9 @@ void fields(Json& json, Provenance& provenance) {
 namespace {
 
 template <typename Json>
-void range_field(Json& json, const std::string& key, BoxRange& range, double least = kLeast) {
+void range_field(Json& json, const std::string& key, BoxRange& range, Range allowed = kPositive) {
   std::array ends{range.from, range.to};
-  ranged(json, key, ends, {least, kMost});
+  ranged(json, key, ends, allowed);
   json.require(ends[0] <= ends[1], key, "from the smaller to the larger");
   range = {ends[0], ends[1]};
 }
@@ -121,7 +115,7 @@ void fields(Json& json, CertifiedBox& box) {
     range_field(json, "motor_inertia_kgm2", box.motor_inertia_kgm2);
     range_field(json, "link_inertia_kgm2", box.link_inertia_kgm2);
     range_field(json, "stiffness_Nm_rad", box.stiffness_Nm_rad);
-    range_field(json, "damping_Nms_rad", box.damping_Nms_rad, 0.0);
+    range_field(json, "damping_Nms_rad", box.damping_Nms_rad, kNotNegative);
   }
   std::array delays{box.least_delay, box.most_delay};
   ranged(json, "delay_periods", delays, {0.0, kMaxBoxDelay});
@@ -133,7 +127,7 @@ void fields(Json& json, CertifiedBox& box) {
     if (box.lead_periods != 0.0) lead_periods = box.lead_periods;
     json("lead_periods", lead_periods);
     box.lead_periods = lead_periods.value_or(0.0);
-    json.require(NumberRange{0.0, kMaxLeadPeriods}.holds(box.lead_periods), "lead_periods",
+    json.require(Range{0.0, kMaxLeadPeriods}.holds(box.lead_periods), "lead_periods",
                  "from 0 to " + number_text(kMaxLeadPeriods));
   }
   json.list("cells", box.cell_count, spring ? 1 : 0, kMaxBoxCells,
@@ -149,7 +143,7 @@ void require_friction(Json& json, const GainTable& table) {
   for (int i = 0; i < table.friction.rule_count; ++i) {
     const auto& [static_Nm, coulomb_Nm, viscous_Nms_rad] =
         table.friction.rules[static_cast<std::size_t>(i)].friction;
-    const auto require = [&](const char* key, double value, const NumberRange& range, const char* why) {
+    const auto require = [&](const char* key, double value, Range range, const char* why) {
       json.require(range.holds(value),
                    "friction.rules[" + std::to_string(i) + "]." + key + " = " + number_text(value),
                    range.text() + why);
@@ -194,7 +188,8 @@ std::optional<std::string> find_defect(const GainTable& table) {
            std::to_string(kGainTableFormat);
   try {
     if (from_document<GainTable>(to_document(table), "table") == table) return std::nullopt;
-    return "holds bytes that none of its keys names: must be 0 beyond its counts and texts";
+    return "holds numbers that it does not name: what is beyond its counts, its texts and its rigid box must "
+           "be 0";
   } catch (const InputError& error) {
     return error.what();
   }

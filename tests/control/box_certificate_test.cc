@@ -44,14 +44,14 @@ TEST(BoxCertificate, RefusesATableWithAnotherLead) {
   }
   GainTable without = testing::shipped_table("csf-17-50-delays");
   without.box.lead_periods = 0.0;
-  EXPECT_NE(find_defect(without).value_or("").find("must be 0 beyond the matrix"), std::string::npos);
+  EXPECT_NE(find_defect(without).value_or("").find("must be 0"), std::string::npos);
   GainTable more = testing::shipped_table("csf-17-50-delays");
   more.box.lead_periods = 1.01 * kMaxLeadPeriods;
   EXPECT_NE(find_defect(more).value_or("").find("box.lead_periods"), std::string::npos);
   GainTable rigid = testing::shipped_table("csf-17-50-delays");
   rigid.box = {};
   rigid.box.lead_periods = 2.0;
-  EXPECT_NE(find_defect(rigid).value_or("").find("rigid"), std::string::npos);
+  EXPECT_NE(find_defect(rigid).value_or("").find("rigid box must be 0"), std::string::npos);
 }
 
 // Not by the proof's own interpolation or matrices: the loop written down by hand, sampled in 100 steps, at any place of the box.

@@ -374,11 +374,11 @@ const std::vector<TableCase> kTableCases{
     {"\"format\": ", "\"format\": 1", {"format = 1", "this program reads format"}},
     {"\"torque_limit_Nm\"", "\"torque_limit\"", {"torque_limit_Nm: is missing", "there is torque_limit:"}},
     {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": \"34\"", {"torque_limit_Nm", "number"}},
-    {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": -34.0", {"torque_limit_Nm = -34", "above 0"}},
+    {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": -34.0", {"torque_limit_Nm = -34", "from 1e-09"}},
     {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": 3.0", {"static_Nm = 5.8", "half of torque_limit_Nm"}},
     {"\"static_Nm\": 5.", "\"static_Nm\": 5000.", {"friction.rules[0].static_Nm", "half of torque_limit_Nm"}},
     {"\"coulomb_Nm\": 5.", "\"coulomb_Nm\": 6.", {"friction.rules[0].coulomb_Nm", "must be from"}},
-    {"\"zero_width_rad_s\": 0.", "\"zero_width_rad_s\": 1e-320, \"x\": 0.", {"x"}},
+    {"\"zero_width_rad_s\": 0.", "\"zero_width_rad_s\": 0.1, \"x\": 0.", {"x"}},
     {"{", "", {"JSON"}},
 };
 
