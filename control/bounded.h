@@ -25,7 +25,7 @@ struct Bounded {
 namespace bounded_detail {
 inline constexpr double kHalfUlp = 0.5 * std::numeric_limits<double>::epsilon();
 inline constexpr double kUnderflow = std::numeric_limits<double>::min();
-/// More than the rounding of the up to eight operations that form one bound.
+/// Covers the rounding of the up to eight operations that form one bound.
 inline constexpr double kUp = 1.0 + 16.0 * std::numeric_limits<double>::epsilon();
 
 inline Bounded rounded(double value, double inherited) noexcept {

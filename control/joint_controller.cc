@@ -10,23 +10,23 @@ namespace strainwave {
 
 namespace {
 
-// Of the load that shows: longer than a count's torque lasts.
+// Time constant of the displayed load: longer than the torque of a count lasts.
 constexpr double kWeigh_s = 0.01;
-// Within so many counts a joint that was pushed stands.
+// A pushed joint that stays within this many counts stands still.
 constexpr double kStandsCounts = 3.0;
-// Smaller swings of the feedback are no oscillation: a share of the torque limit, and what a count makes of the law.
+// Least swing of the feedback that counts as oscillation: a share of the torque limit, and a multiple of the torque of a count.
 constexpr double kSwingShare = 0.2;
 constexpr double kSwingCounts = 2.0;
-// Per second: how fast a joint whose drive closes no loop of position returns to its plan. Drives follow a velocity within some 10 ms: a
-// tenth of that rate needs nothing of their loop but that it follows.
+// Rate in 1/s at which a joint in velocity mode returns to its plan. Drives follow a velocity within some 10 ms. A tenth of that rate
+// is safe with every drive that follows its velocity.
 constexpr double kReturn_1_s = 10.0;
 
-// With the spring between motor and encoder the loop is stable with half the rate of learning, and not with the whole (docs/certificate.md).
+// Factor on learning with a link encoder: half the rate is stable with the spring in the loop, the full rate is not (docs/certificate.md).
 constexpr double kLinkLearning = 0.5;
-// A drive's own integrator is quick; what is learned of its torque, with its noise, need not be (strainwave-sim own-loop).
+// A drive's own integrator is fast, so that learning from its noisy torque may be slow (strainwave-sim own-loop).
 constexpr double kOwnLoopLearning = 0.1;
 
-// After a motion whose friction is 30 % more than the table's; half of it is too short (`strainwave-sim flexible --wrong`).
+// Duration of swings after a motion with 30 % more friction than the table's. Half of it is too short (`strainwave-sim flexible --wrong`).
 constexpr double kSwings_s = 0.2;
 
 double learning_share(const JointControllerConfig& config) noexcept {
@@ -38,7 +38,7 @@ bool left_out(const JointMeasurement& measurement) noexcept {
   return measurement.elapsed_periods > kMaxElapsedPeriods;
 }
 
-// In which the joint was led. Without an order a drive that closes a loop of position stands, and the plan waits with it.
+// Periods by which the plan advances. Without an order a drive in position mode stands still, and the plan waits with it.
 int led_periods(const JointControllerConfig& config, const JointMeasurement& measurement) noexcept {
   if (left_out(measurement) || config.drive_mode == DriveMode::kPosition) return 1;
   return std::max(1, measurement.elapsed_periods);
@@ -52,7 +52,7 @@ bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
   return std::abs(off_rad) <= RestCorrections::kAtPlaceCounts * count_of(config);
 }
 
-// Of a joint at rest. Just after a motion one that does not stand still swings, and its torque is no load.
+// Whether the feedback of a joint at rest shows the load. While the joint still swings, just after a motion, it does not.
 bool shows_load(const JointControllerConfig& config, const JointPlan& plan,
                 const JointReading& reading) noexcept {
   return reading.still_periods() * config.period_s >= RestCorrections::kStands_s ||
@@ -123,7 +123,6 @@ PlannedJoint JointController::joint() const noexcept {
   return joint;
 }
 
-// The steps of a period, in their order.
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!law_.loaded()) return {};
   const int elapsed_periods = led_periods(config_, measurement);
@@ -144,7 +143,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   return result(output, learns);
 }
 
-// A motion over a gap in which the loop did not run goes on from where the joint is.
+// After a gap in which the loop did not run, a motion continues from the joint's position.
 void JointController::advance_plan(const JointMeasurement& measurement) noexcept {
   if (left_out(measurement) && plan_.moves()) {
     const double passed_s = measurement.elapsed_periods * config_.period_s;
@@ -185,14 +184,14 @@ void JointController::choose_phase() noexcept {
   }
 }
 
-// The joint goes where it is pushed; once it stands it is held again.
+// Counts the time for which the pushed joint has stood still.
 void JointController::Yielding::see(double position_rad, double count_rad, int elapsed_periods) noexcept {
   const bool moved = std::abs(position_rad - stands_at_rad) > kStandsCounts * count_rad;
   if (moved) stands_at_rad = position_rad;
   periods = moved ? 0 : periods + elapsed_periods;
 }
 
-// What pushed the joint has let go. The next reading is one period of this velocity farther, and so is the plan.
+// The push has ended. The plan starts at this period's reading; in the next period both are one step of this velocity farther.
 void JointController::hold_again() noexcept {
   const double position_rad = reading_.position_rad();
   start(position_rad, reading_.velocity_rad_s(), yielding_.load_Nm + config_.gravity.at(position_rad));
@@ -200,8 +199,8 @@ void JointController::hold_again() noexcept {
   advance_plan({});
 }
 
-// Only the tracking joint's torque is the law's. Where the drive closes the loop there is no law; what the drive adds to what it is fed
-// stands where the law's torque does.
+// The law gives the torque only while tracking. If the drive closes the loop there is no law: the torque that the drive adds to its
+// feed-forward takes the place of the feedback.
 ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
   if (config_.drive_closes_loop()) {
     const double fed_Nm = plan_.torque_Nm(joint());
@@ -237,14 +236,14 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   return output;
 }
 
-// From an order's own motion, at a torque that is not limited and a reading that is fresh; at rest a load alone.
+// Learns from an ordered motion with an unlimited torque and a fresh reading; at rest learns the load alone.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
   if (phase_ != MotionPhase::kTracking || output.saturated || plan_.planner().exhausted() ||
       !measurement.has_position || measurement.elapsed_periods > 1)
     return false;
   const double velocity_rad_s = plan_.now().acting_velocities_rad_s[1];
   const bool moves = plan_.planner().moves();
-  // What a drive adds at rest may be held by friction.
+  // At rest, friction may hold the torque that a drive adds.
   if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
   const double learns_for_s = config_.period_s * learning_share(config_);

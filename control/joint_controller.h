@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that one joint needs each period, in one object that the daemon and the simulator both run.
+// The controller of one joint. The daemon and the simulator run the same object each period.
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Only the constructor is not: it solves for a
 // regulator (control/joint/link_model.h). Joint side, SI.
 //
@@ -7,17 +7,17 @@
 //   friction     F(wm*, T) = sum_i w_i(T) (1 + s_i) F_i(wm*)                             (control/friction/friction_learning.h)
 //   law          u = k(T, w) [ integral e, e, e' ],   e = reading - plan                 (control/scheduled_controller.h)
 //   torque       T* + F + load + u, limited
-//   learning     s_i and load from u, while the plan moves and the torque is not limited
-//   rest         within a count of its place: the torque that holds; else a small motion (control/rest_corrections.h)
+//   learning     s_i and load from u while the plan moves, load alone at rest; not while the torque is limited
+//   rest         within a count of the target a constant holding torque; otherwise a small motion (control/rest_corrections.h)
 //
-// A drive that closes its own loop is ordered the plan, and torque as far as it is known without the law:
+// A drive that closes its own loop receives the plan, and the known part of the torque, without the law:
 //
 //   order        thm* at the end of the period in which it acts, T* + F + load, and      (control/joint/drive_mode.h)
-//                wm* so much before its middle as the drive's velocity is old
-//   velocity     wm* + r (plan - reading), where the drive closes no loop of position
-//   learning     s_i and load from the torque that the drive adds by itself, where it says which
+//                wm* earlier than the middle of that period by the age of the drive's velocity
+//   velocity     wm* + r (plan - reading), where the drive closes no position loop
+//   learning     s_i and load from the torque that the drive adds, if the drive reports its torque
 //
-// A joint that oscillates shows it by its torque (control/oscillation_detector.h).
+// The oscillation detector watches the torque (control/oscillation_detector.h).
 #pragma once
 
 #include <optional>
@@ -33,69 +33,69 @@
 
 namespace strainwave {
 
-/// How the torque comes about.
+/// How the controller forms the torque.
 enum class MotionPhase : int {
-  kTracking = 0,  ///< the law on the plan
-  kResting = 2,   ///< what holds the joint, constant
-  kYielding = 3,  ///< a constant torque while the joint is pushed away, until it stands
+  kTracking = 0,  ///< the law follows the plan
+  kResting = 2,   ///< a constant holding torque
+  kYielding = 3,  ///< holds the load alone while the joint is pushed away, until it stands still
 };
 
 /// One period's result.
 struct JointStep {
   ControllerOutput output;
-  MotorOrder order;     ///< of a drive that closes its own loop
-  Reference reference;  ///< where the encoder should be read now
-  /// The same by the orders alone: while a joint corrects its place at rest, that place. What the joint is supervised against.
+  MotorOrder order;     ///< for a drive that closes its own loop
+  Reference reference;  ///< expected reading of the encoder now
+  /// The reference that the orders alone give, for supervision: during a correction at rest, the ordered place.
   Reference ordered_reference;
   double joint_velocity_rad_s = 0.0;  ///< measured, as the feedback used it
   bool at_target = false;             ///< the motion has ended on the target
-  bool off_stream = false;  ///< the limits do not let the reference be where the stream is, or not yet
+  bool off_stream = false;  ///< the limits keep the reference off the stream, or it is still approaching
   MotionPhase phase = MotionPhase::kTracking;
-  /// Besides gravity and the stream's load: the learned load and the feedback, the mean over 10 ms.
+  /// Learned load and feedback torque, without gravity and the stream's load; mean over 10 ms.
   double load_Nm = 0.0;
   int corrections = 0;  ///< small motions at rest since the last order
-  bool learns = false;  ///< friction and load, in this period
+  bool learns = false;  ///< friction or load, in this period
   bool oscillates = false;
 };
 
 class JointController {
  public:
-  /// Not real-time safe: some milliseconds where there is a link.
+  /// Not real-time safe: takes some milliseconds where there is a link.
   explicit JointController(const JointControllerConfig& config) noexcept;
 
-  /// Takes `table`, which must be certified for this joint and period. While running the change makes no
-  /// torque step: the integral is chosen so that the torque is what the old gains would have given.
+  /// Takes `table`, which must be certified for this joint and period. A change while running is a bumpless transfer:
+  /// the new integral gives the torque that the old gains would have given.
   void load(const GainTable& table) noexcept;
 
-  /// Begins when the drive becomes enabled: comes to rest from `velocity_rad_s` and holds, at rest `position_rad`.
-  /// `holding_torque_Nm` is what held the load until now (of a joint that a brake held: what gravity needs), by default what gravity needs
-  /// and what was learned; the first torque at rest continues it. What was learned of friction stays.
+  /// Starts when the drive becomes enabled: decelerates from `velocity_rad_s` to rest and holds; at rest holds `position_rad`.
+  /// `holding_torque_Nm` is the torque that held the load until now; where a brake held it, that of gravity. Default: gravity and
+  /// the learned load. The first torque at rest continues it. Learned friction stays.
   void start(double position_rad, double velocity_rad_s = 0.0,
              std::optional<double> holding_torque_Nm = {}) noexcept;
-  /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
+  /// Moves to `position_rad` from now on, no faster than `speed_limit_rad_s` if that is above 0.
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept {
     plan_.set_target(position_rad, speed_limit_rad_s);
   }
-  /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
-  /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
+  /// Takes one setpoint of a stream; `begins`: the first one. Speed limit as above; the reference stays inside `range`. The stream lasts until
+  /// set_target(), stop() or start(), or until samples are missing: then the joint decelerates to rest and holds.
   SampleFate follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
                     const PositionRange& range) noexcept {
     return plan_.follow(sample, begins, speed_limit_rad_s, range);
   }
-  /// A path leads here in so many periods, > 0. The joint is later than this by plan().lead_s().
+  /// A path reaches this point in `in_periods` > 0. The joint reaches it later by plan().lead_s().
   void follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
                    const PositionRange& range) noexcept {
     plan_.follow_path(position_rad, velocity_rad_s, in_periods, range);
   }
   /// Decelerates to rest and holds.
   void stop() noexcept { plan_.stop(); }
-  /// Lets go: until it stands, the torque is what holds `load_Nm`, gravity and what a stream says. Then it decelerates to rest and holds.
+  /// Yields to a push: the torque only holds `load_Nm`, gravity and the stream's load, until the joint stands still. Then it is held.
   void yield(double load_Nm) noexcept;
   bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
 
-  /// So many periods, >= 1, after the last step() comes the next, which is given the same number: before samples that have come since are
-  /// followed. Motions speed up with `driving_share` of the torque limit, 0 to 1; what brakes and holds has all of it. May be left out where
-  /// both are one.
+  /// The next step() comes `elapsed_periods` >= 1 after the last one, and is given the same number. Call this before follow() of samples that
+  /// have arrived since. Motions speed up with `driving_share`, 0 to 1, of the torque limit; braking and holding may use all of it. The call
+  /// may be left out where both are 1.
   void begin_period(std::int64_t elapsed_periods, double driving_share) noexcept {
     plan_.begin_period(elapsed_periods);
     driving_share_ = driving_share;
@@ -103,13 +103,13 @@ class JointController {
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
-  /// Trajectory, plan and place.
+  /// Trajectory, motor plan and corrections.
   const JointPlan& plan() const noexcept { return plan_; }
-  /// What holds a joint at rest, before limits.
+  /// Torque that holds the joint at rest, before limits.
   double holding_torque_Nm() const noexcept;
-  /// The joint at this temperature, with what was learned and what a stream says of its load.
+  /// The joint at this temperature, with learned friction and load, and with the stream's load.
   PlannedJoint joint() const noexcept;
-  /// What was learned. It may be set and frozen at rest or at start-up, without a torque step.
+  /// Learned friction and load. Setting or freezing them at rest or at start-up makes no torque step.
   FrictionLearning& friction() noexcept { return friction_; }
   const FrictionLearning& friction() const noexcept { return friction_; }
   const OscillationDetector& oscillation() const noexcept { return oscillation_; }
@@ -127,11 +127,11 @@ class JointController {
   void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;
   JointStep result(const ControllerOutput& output, bool learns) const noexcept;
 
-  /// What yield() began.
+  /// State since yield().
   struct Yielding {
-    double load_Nm = 0.0;        ///< besides gravity, held
-    double stands_at_rad = 0.0;  ///< about where the joint was last seen to stand
-    int periods = 0;             ///< that it has stood
+    double load_Nm = 0.0;        ///< held load without gravity
+    double stands_at_rad = 0.0;  ///< position around which standstill is counted
+    int periods = 0;             ///< at standstill
     void see(double position_rad, double count_rad, int elapsed_periods) noexcept;
   };
 

@@ -10,10 +10,10 @@ namespace strainwave {
 
 namespace {
 
-// Where exact sensing, which has no counts, takes a joint to be at its place.
+// Resolution that is assumed for exact sensing, which has no counts.
 constexpr double kExactCount_rad = 1e-6;
-// While a motion speeds up and the torque is limited its accelerations fall by 1/e in this time, down to the least share. With a load that is
-// 30 % heavier than configured, 1 rad at full torque, the link overshoots by 9 mrad; without it by 97 (`strainwave-sim flexible --wrong`).
+// While a motion speeds up with a saturated torque, its accelerations fall by a factor of e in this time, down to the least share. With 30 %
+// more load than configured and 1 rad at full torque, the link overshoots by 9 mrad instead of 97 (`strainwave-sim flexible --wrong`).
 constexpr double kPace_s = 0.2;
 constexpr double kLeastPace = 0.3;
 
@@ -60,8 +60,8 @@ void JointPlan::start(double reading_rad, double velocity_rad_s) noexcept {
   trajectory_.start(begin_plan(reading_rad, begin_rad_s, config_.gravity.at(reading_rad)), begin_rad_s);
 }
 
-// A motion at constant velocity from where the encoder reads `reading_rad`; `torque_Nm` is what the first change of torque is counted from.
-// Where the trajectory, which is ahead, must go on from.
+// Starts a plan at constant velocity where the encoder reads `reading_rad`. The first change of torque counts from `torque_Nm`.
+// Returns the position from which the trajectory, which leads the plan, must continue.
 double JointPlan::begin_plan(double reading_rad, double velocity_rad_s, double torque_Nm) noexcept {
   const double motor_rad = by_encoder(config_, planner_.motor_rest_rad(reading_rad), reading_rad);
   plan_ = {};
@@ -106,7 +106,7 @@ void JointPlan::go_on_from(double reading_rad, double velocity_rad_s) noexcept {
   trajectory_.go_on_from(begin_plan(reading_rad, begin_rad_s, plan_.torque_Nm), begin_rad_s);
 }
 
-// What the joint can do at the speed that the reference has reached.
+// Limits of the joint at the speed that the reference has reached.
 MotionLimits JointPlan::present_limits(const PlannedJoint& joint) const noexcept {
   MotionLimits limits = reachable_limits(
       motion_, config_.motor, joint.model,
@@ -181,7 +181,7 @@ double JointPlan::torque_Nm(const PlannedJoint& joint) const noexcept {
   const double share = config_.without == Mechanism::kFriction ? 0.0 : 1.0 + corrections_.friction_share();
   const double friction_Nm =
       0.5 * (joint.model.friction_along_Nm(begin, middle) + joint.model.friction_along_Nm(middle, end));
-  // A drive's torque acts a period of its loop later. The step of friction at a reversal cannot be foreseen from the last change.
+  // A drive's own loop applies the torque one loop period later: its last change is extrapolated. A reversal's friction step cannot be.
   const double later_Nm = config_.drive_loop_period_s / config_.period_s * change_Nm_;
   return plan_.torque_Nm + later_Nm + share * friction_Nm + load_Nm +
          load.inertia_kgm2 * plan_.wanted_acceleration_rad_s2;

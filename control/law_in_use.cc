@@ -8,7 +8,7 @@ namespace strainwave {
 
 namespace {
 
-// Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two readings.
+// Largest torque per rad of a reading: through the position, and through the velocity that differences of readings give.
 double largest_gain_Nm_rad(const GainTable& table, double velocity_by_rad) noexcept {
   double largest = 0.0;
   for (int rule = 0; rule < table.primary.rule_count; ++rule) {

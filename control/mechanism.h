@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the controller that a study can switch off, one at a time, to show what each is worth (`strainwave-sim ablation`).
+// The parts of the controller that a study can switch off, one at a time, to show the benefit of each (`strainwave-sim ablation`).
 // The daemon runs all of them.
 #pragma once
 
@@ -7,14 +7,14 @@ namespace strainwave {
 
 enum class Mechanism {
   kNone,              ///< nothing is switched off
-  kWindUp,            ///< the plan has the gear's spring
-  kFriction,          ///< the plan feeds friction forward
-  kFrictionLearning,  ///< by the feedback of motions
-  kLoadLearning,      ///< by the feedback at rest
-  kRestTorque,        ///< within a count of its place the joint is held by a constant torque
-  kCorrections,       ///< small motions bring the last counts
-  kPace,              ///< a torque that is spent slows the motion down
-  kGivingWay,         ///< the plan gives way when it needs more torque than the motion
+  kWindUp,            ///< wind-up of the gear's spring in the plan
+  kFriction,          ///< friction feed-forward of the plan
+  kFrictionLearning,  ///< from the feedback during motions
+  kLoadLearning,      ///< from the feedback at rest
+  kRestTorque,        ///< a constant torque holds the joint within a count of its target
+  kCorrections,       ///< small motions at rest correct the last counts
+  kPace,              ///< a saturated torque lowers the accelerations
+  kGivingWay,         ///< the plan yields when its regulator needs more torque than the motion
 };
 
 }  // namespace strainwave

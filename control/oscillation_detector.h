@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detects an oscillation by the torque: reversals of the feedback that no plan orders. Real-time safe.
+// Detects an oscillation from reversals of the feedback torque that no plan orders. Real-time safe.
 //
-//   reversal     feedback beyond +limit after one beyond -limit, or the other way round, while the plan's torque kept its sign
+//   reversal     feedback beyond +limit after feedback beyond -limit, or vice versa, while the plan's torque keeps its sign
 //   level'       -level / 1 s + 1 at each reversal
-//   oscillates   level >= 30: for instance 100 reversals per second for 0.36 s, until reset()
+//   oscillates   from level >= 30 until reset(); for instance after 100 reversals per second for 0.36 s
 //
 // A joint with a wrong delay, inertia, stiffness or encoder side makes 40 to 400 reversals per second for as long as it is driven. A
 // link of 1 kg m2 with 1 % damping swings at 160 reversals per second after a move, for a fifth of a second.
@@ -36,7 +36,7 @@ class OscillationDetector {
   }
 
   bool oscillates() const noexcept { return oscillates_; }
-  /// Evidence: about how often per second the torque reversed, and how far it swung.
+  /// Evidence: the approximate rate at which the torque reversed, and how far it swung.
   double reversals_per_s() const noexcept { return level_ / kMemory_s; }
   double swing_Nm() const noexcept { return swing_Nm_; }
 

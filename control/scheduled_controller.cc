@@ -61,7 +61,7 @@ double ScheduledController::fast_part(const ControllerInput& input,
          velocity_share_s2_ * velocity_error_rad_s(input);
 }
 
-// Saturation and setpoint jumps leave the slow part of the state as it was.
+// Keeps the integral's slow part through saturation and setpoint jumps.
 void ScheduledController::keep_slow_part(const ControllerInput& input) noexcept {
   if (!has_integrator_) return;
   const bool jumped = input.jumped_from_rad.has_value();
@@ -70,7 +70,7 @@ void ScheduledController::keep_slow_part(const ControllerInput& input) noexcept 
   if (jumped) interrupt();
 }
 
-// u = l + lead (l - l one period ago).
+// Factor of the lead in u = l + factor (l - last l); 0 if the last l is unknown.
 double ScheduledController::lead_in(const ControllerInput& input) const noexcept {
   return last_law_Nm_ ? lead_periods_ / std::max(1, input.elapsed_periods) : 0.0;
 }

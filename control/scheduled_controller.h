@@ -12,14 +12,14 @@
 //
 // Source: Zhao (2006), (3-9)..(3-35), section 5.4. His compensation of friction without a plan is in sim/studies/loop_controllers.h.
 //
-// The integral has two duties, of which only the slow one is wanted. With P the Lyapunov matrix of rule 0,
-//   V(x) = P_00 slow^2 + (a form in e and velocity alone)
+// Only the slow part of the integral is wanted. With P the Lyapunov matrix of rule 0,
+//   V(x) = P_00 slow^2 + (a form in e and velocity error alone)
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
-// A setpoint that jumps and a saturated torque keep `slow`: for a given e and velocity that costs least, and nothing winds up. While the torque is
-// limited V can rise: the certificate is of the law within its limits (docs/certificate.md).
+// When the setpoint jumps or the torque saturates, the controller keeps `slow`: the first term of V does not change, and the integral does
+// not wind up. V can still rise during saturation: the certificate covers the law within its limits (docs/certificate.md).
 //
-// A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h). The first sample, and the first after a jump of x or
-// F, has no l one period ago: there u = l. Over periods that were left out l has changed evenly.
+// The lead compensates dead time: the periods by which a torque acts late (control/table/spring_plant.h). The first sample, and the first
+// after a jump of x or F, has no l one period ago: there u = l. Over skipped periods the controller assumes an even change of l.
 #pragma once
 
 #include <array>
@@ -36,11 +36,11 @@ struct ControllerInput {
   double joint_velocity_rad_s = 0.0;
   double setpoint_position_rad = 0.0;
   double setpoint_velocity_rad_s = 0.0;     ///< 0 for a step reference
-  double feedforward_torque_Nm = 0.0;       ///< what the motion needs: inertia, friction, load
-  std::optional<double> jumped_from_rad{};  ///< the setpoint one period ago, where it has jumped since
+  double feedforward_torque_Nm = 0.0;       ///< torque of inertia, friction and load
+  std::optional<double> jumped_from_rad{};  ///< previous setpoint, if the setpoint has jumped since
   double torque_limit_Nm = 0.0;             ///< >= 0
-  int elapsed_periods = 1;                  ///< >= 1, since the last sample
-  /// What the supply leaves of it at this speed.
+  int elapsed_periods = 1;                  ///< since the last sample, >= 1
+  /// Torque range that motor and supply allow at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
   double torque_max_Nm = std::numeric_limits<double>::infinity();
 };
@@ -57,7 +57,7 @@ struct ControllerOutput {
 class ScheduledController {
  public:
   ScheduledController() = default;
-  /// `gains` and the memberships of `friction` must have passed find_defect(). What the law needs of them is copied. `lead_periods` >= 0.
+  /// `gains` and the memberships of `friction` must have passed find_defect(). The controller keeps no reference to them. `lead_periods` >= 0.
   ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction, const PlantIdentity& plant,
                       double lead_periods = 0.0) noexcept;
 
@@ -70,19 +70,19 @@ class ScheduledController {
 
   /// Forgets the integral and the last sample.
   void reset() noexcept;
-  /// Until the next sample x jumps, or another torque is applied.
+  /// x jumps, or another torque is applied, before the next sample: the lead restarts.
   void interrupt() noexcept { last_law_Nm_.reset(); }
 
-  /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over
-  /// from another controller, which had `last_law_Nm` one period ago, makes no torque step. Without an integrator the lead alone goes on.
+  /// Bumpless transfer from another controller, whose l was `last_law_Nm` one period ago. Chooses the integral so that step(input) gives
+  /// `torque_Nm`, unless it saturates. Without an integrator only the lead continues.
   void carry_over(const ControllerInput& input, double torque_Nm,
                   std::optional<double> last_law_Nm = {}) noexcept;
-  /// l one period ago, if there was one.
+  /// l one period ago, if known.
   std::optional<double> last_law_Nm() const noexcept { return last_law_Nm_; }
 
   const TemperatureWeights& temperature_weights() const noexcept { return weights_; }
   double integral_rad_s() const noexcept { return integral_rad_s_; }
-  /// The integral's part of the torque of a joint at rest: what it has learnt of load and friction.
+  /// The integral's torque on a joint at rest: the load and friction that it has learned.
   double integral_torque_Nm() const noexcept;
 
  private:
@@ -96,7 +96,7 @@ class ScheduledController {
 
   std::array<GainRow, kMaxTemperatureRules> rules_{};  ///< F_i
   FuzzyFriction friction_;
-  GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; of a controller without temperature its only gain
+  GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; without scheduling the only gain
   double period_s_ = 0.0;
   double lead_periods_ = 0.0;
   bool scheduled_ = false;
@@ -107,7 +107,7 @@ class ScheduledController {
   double position_share_s_ = 0.0;                 ///< P_01 / P_00
   double velocity_share_s2_ = 0.0;                ///< P_02 / P_00
   double integral_rad_s_ = 0.0;
-  double slow_rad_s_ = 0.0;  ///< of the last sample
+  double slow_rad_s_ = 0.0;  ///< slow part of the integral at the last sample
   std::optional<double> last_law_Nm_;
   bool saturated_ = false;  ///< at the last sample
 };

@@ -5,8 +5,7 @@
 
 namespace strainwave {
 
-/// Friction at one temperature, joint side. All three are
-/// >= 0 and static_Nm >= coulomb_Nm for a physical joint.
+/// Friction at one temperature, joint side. All three are >= 0, and static_Nm >= coulomb_Nm for a physical joint.
 struct FrictionParameters {
   double static_Nm = 0.0;        ///< Fs: largest torque that the joint at rest withstands.
   double coulomb_Nm = 0.0;       ///< Fc: friction of slow motion, beyond the Stribeck range.
@@ -23,7 +22,7 @@ struct StribeckShape {
 
 /// Friction torque in N.m that opposes a joint moving at `velocity_rad_s`, with the sign of the velocity:
 ///   F(w) = [ (Fs - Fc) exp(-(|w|/ws)^delta) + Fc + Fv |w| ] sign(w).
-/// At w = 0 it returns 0: a joint at rest balances any torque up to Fs, which is the plant's business.
+/// At w = 0 it returns 0: a joint at rest balances any torque up to Fs, which a model of the joint must handle.
 double stribeck_friction_Nm(const FrictionParameters& friction, const StribeckShape& shape,
                             double velocity_rad_s) noexcept;
 

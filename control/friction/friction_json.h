@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction as JSON (base/json_fields.h), in gain tables and in the friction files of strainwave-design fit. It stands there at one
-// temperature, over temperature and speed as one law, and as fuzzy rules. Joint side. Not real-time.
+// Friction as JSON (base/json_fields.h), in gain tables and in the friction files of strainwave-design fit: at one temperature, as a law
+// over temperature and speed, and as fuzzy rules. Joint side. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ void fields(Json& json, VelocityMemberships& velocity) {
   ranged(json, "high_width_rad_s", velocity.high_width_rad_s, kPositive);
 }
 
-/// All but the ranges of friction, which a fit may leave: those are the gain table's.
+/// The ranges of friction are not checked here: a fit may exceed those that a gain table must keep (gain_table_json.cc).
 template <typename Json>
 void fields(Json& json, FuzzyFriction& friction) {
   ranged(json, "temperature_min_C", friction.temperature_min_C, kTemperature_C);
@@ -61,7 +61,7 @@ void fields(Json& json, FuzzyFriction& friction) {
   });
 }
 
-/// The law of a friction file of strainwave-design fit. It must have one, for this ratio. Throws InputError.
+/// Reads the law from a friction file of strainwave-design fit. Throws InputError if the file has no law for this ratio.
 FrictionLaw read_friction_law(const std::filesystem::path& path, double gear_ratio);
 
 }  // namespace strainwave

@@ -9,12 +9,12 @@ namespace strainwave {
 
 namespace {
 
-// Both per second. With their sum the loop is stable at the corners of the shipped boxes (docs/certificate.md).
+// Rates per second. With their sum the loop is stable at the corners of the shipped boxes, with one exception (docs/certificate.md).
 constexpr double kFrictionRate_1_s = 35.0;
 constexpr double kLoadRate_1_s = 5.0;
-// Feedback counts up to this share of the friction: a collision must not become friction within a few periods.
+// Feedback counts up to this share of the friction, so that a collision is not learned as friction within a few periods.
 constexpr double kCounted = 0.5;
-// Memory of the mean. 0.3 and 1 s are as good (`strainwave-sim flexible --wrong`: joints with a wrong load that stand off their place).
+// Memory of the mean. 0.3 and 1 s leave about as many joints with a wrong load off their target (`strainwave-sim flexible --wrong`).
 constexpr double kMean_s = 0.5;
 
 }  // namespace

@@ -13,11 +13,11 @@ double VelocityMemberships::zero_weight(double velocity_rad_s) const noexcept {
   const double speed_rad_s = std::abs(velocity_rad_s);
   const double beyond_zero = std::max(0.0, speed_rad_s - zero_center_rad_s) * (1.0 / zero_width_rad_s);
   const double below_high = std::max(0.0, high_center_rad_s - speed_rad_s) * (1.0 / high_width_rad_s);
-  // The quotient of the two is taken inside one exponential, so that neither can underflow.
+  // One exponential of the difference replaces the quotient of both, so that neither can underflow.
   return 1.0 / (1.0 + std::exp(beyond_zero * beyond_zero - below_high * below_high));
 }
 
-// Relative to the nearest rule's, which has 1, so that far from every centre they are never 0/0.
+// Memberships are relative to the nearest rule's, so that far from every centre they are not 0/0.
 TemperatureWeights FuzzyFriction::weights(double temperature_C) const noexcept {
   assert(rule_count >= 1 && rule_count <= kMaxTemperatureRules);
   TemperatureWeights result;

@@ -38,16 +38,15 @@ struct VelocityMemberships {
   double high_center_rad_s = 1.0;
   double high_width_rad_s = 1.0;
 
-  /// The Stribeck curve that these memberships stand for: half of the width of "zero", squared in the exponent. With Zhao's memberships
-  /// (2006, section 3) that is the catalogue's Stribeck velocity, 20 RPM of the motor.
+  /// The Stribeck curve of these memberships: half of zero_width_rad_s as velocity, exponent 2. With Zhao's memberships (2006, section 3)
+  /// that is the catalogue's Stribeck velocity, 20 RPM of the motor.
   constexpr StribeckShape stribeck() const noexcept { return {0.5 * zero_width_rad_s, 2.0}; }
   /// alpha_0 = mu_zero / (mu_zero + mu_high), in (0, 1), even in velocity.
   double zero_weight(double velocity_rad_s) const noexcept;
   bool operator==(const VelocityMemberships&) const = default;
 };
 
-/// The whole model, as it travels in a gain table. 1 <=
-/// rule_count <= kMaxTemperatureRules, centres ascending.
+/// The whole model, as a gain table contains it. 1 <= rule_count <= kMaxTemperatureRules, centres ascending.
 struct FuzzyFriction {
   std::int32_t rule_count = 0;
   std::array<TemperatureRule, kMaxTemperatureRules> rules{};

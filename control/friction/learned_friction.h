@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the control law has learned of a joint's friction and load while it moved. Plain data. Real-time safe. Joint side, SI.
+// Friction and load of a joint that the control law has learned. Plain data. Real-time safe. Joint side, SI.
 //
 //   friction of temperature rule i    F_i' = (1 + s_i) F_i           F_i: the table's
 //   factor at a temperature           sum_i w_i (1 + s_i) F_i / sum_i w_i F_i       w_i: weights of the rules
@@ -12,13 +12,13 @@
 
 namespace strainwave {
 
-/// A scale s_i is in this range: a tenth of the table's friction to four times of it.
+/// Range of a scale s_i: a tenth of the table's friction to four times the table's.
 inline constexpr double kLeastScale = -0.9;
 inline constexpr double kMostScale = 3.0;
 
 struct LearnedFriction {
   std::array<double, kMaxTemperatureRules> scale{};  ///< s_i, in [kLeastScale, kMostScale]
-  double load_Nm = 0.0;                              ///< load besides gravity and the configured load
+  double load_Nm = 0.0;                              ///< in addition to gravity and the configured load
 
   bool operator==(const LearnedFriction&) const = default;
 };

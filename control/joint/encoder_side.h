@@ -15,7 +15,7 @@ constexpr const char* to_text(EncoderSide side) noexcept {
   return side == EncoderSide::kLink ? "link" : "motor";
 }
 
-/// The side of that word; nothing of another.
+/// The side with this name, or nothing.
 constexpr std::optional<EncoderSide> encoder_side_from_text(std::string_view text) noexcept {
   for (const EncoderSide side : {EncoderSide::kMotor, EncoderSide::kLink})
     if (text == to_text(side)) return side;

@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-// At which the catalogue states running and starting torque.
+// Conditions of the running and starting torques in the catalogue.
 constexpr double kStated_C = 20.0;
 constexpr double kStatedMotor_rad_s = 2000.0 * kRadPerSecondPerRpm;
 
@@ -19,7 +19,7 @@ struct Factors {
   double viscous = 0.0;
 };
 
-// At the motor.
+// Factors on the motor side.
 Factors factors_of(const Gear& gear, const Gear& known, const FrictionParameters& known_friction) {
   const double volume = std::pow(gear.size / known.size, 3.0);
   Factors factors{volume, volume};

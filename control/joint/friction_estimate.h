@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction of a gear by its size, from the one whose friction over temperature is known: the RHS-17-6006, size 17 and ratio 50
-// (data/friction_parameters.csv). An estimate: expect half to twice. Offline.
+// Estimates the friction of a gear from its size and its catalogue torques. The reference is the RHS-17-6006, size 17 and ratio 50, whose
+// friction over temperature is known (data/friction_parameters.csv). Expect half to twice the estimate. Offline.
 //
 //   b = Ts / Ts17                          factor of static and Coulomb friction, motor side
 //   v = (Tr - b Tc17) / (Tv17 2000 RPM)    factor of viscous friction, motor side
 //
-// Ts and Tr are starting and running torque at 20 degC (data/gears.csv). Ts17, Tc17 and Tv17 are static, Coulomb and viscous friction of the
-// RHS-17-6006 there. Without a torque in the file the factor is (size / 17)^3, by which running torques grow within 20 %. The trend over
-// temperature is that of the RHS-17-6006 and of its grease, SK-2.
+// Ts and Tr are starting and running torque at 20 degC (data/gears.csv). Ts17, Tc17 and Tv17 are static, Coulomb and viscous friction of
+// the RHS-17-6006 at 20 degC. If the file lacks a torque, the factor is (size / 17)^3, from which running torques differ by up to 20 %. The
+// trend over temperature is that of the RHS-17-6006 and of its grease, SK-2.
 #pragma once
 
 #include "control/friction/friction.h"
@@ -15,10 +15,10 @@
 
 namespace strainwave {
 
-/// Friction of `gear` at the joint where that of the RHS-17-6006, at its joint, is `rhs17`. Linear in `rhs17`: also for the parts of a law.
+/// Joint friction of `gear`, if the RHS-17-6006 has `rhs17` at its joint. Linear in `rhs17`, so that the parts of a law may be passed.
 FrictionParameters estimate_friction(const Gear& gear, const FrictionParameters& rhs17);
 
-/// The same of a law.
+/// The same for a law over temperature and speed.
 FrictionLaw estimate_friction(const Gear& gear, FrictionLaw rhs17);
 
 }  // namespace strainwave

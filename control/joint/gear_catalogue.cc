@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-// Of "csf-17-50": 17.
+// The size in a name: 17 in "csf-17-50".
 double size_of(const std::string& name, const std::string& place) {
   const std::vector<std::string_view> parts = split(name, '-');
   if (parts.size() != 3) throw InputError(place, "gear", name, "must be SERIES-SIZE-RATIO");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gears of data/gears.csv by name, as far as a program uses them. The table is compiled in, so that the daemon needs no file for it.
+// The gears of data/gears.csv by name, with the data that programs use. The build compiles the table in, so that the daemon needs no file.
 // Offline.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace strainwave {
 
 struct Gear {
   std::string name;   ///< "csf-17-50"
-  double size = 0.0;  ///< the catalogue's: its pitch diameter in tenths of an inch
+  double size = 0.0;  ///< in the catalogue: pitch diameter in tenths of an inch
   double ratio = 0.0;
   TorsionSpring spring;                      ///< at the joint
   double lost_motion_rad = 0.0;              ///< at the joint, from side to side

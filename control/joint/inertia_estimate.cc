@@ -11,20 +11,20 @@ namespace strainwave {
 
 namespace {
 
-// A mean over a span must have moved by so many counts: its way is certain then, and its velocity to a tenth.
+// Least movement in counts over the span of a mean: its direction is then certain, and its velocity known to a tenth.
 constexpr double kLeastCounts = 6.0;
-// Of what a later window counts, each one before it: half a second of motion.
+// Weight of each window relative to the next one: a memory of half a second of motion.
 constexpr double kKept = 0.97;
-// What a window is off by at least, in static friction over its length; friction that is a share of the torque, ripple and swings.
+// Least error of a window, as a share of static friction times the window's length: load-dependent friction, ripple and swings.
 constexpr double kNoiseShare = 0.1;
-// Where the table has no friction.
+// Least static friction that scales the errors, for tables without friction.
 constexpr double kLeastScale_Nm = 1e-3;
-// Prior standard deviation of friction as a share of the table's; that of an unknown load is static friction.
+// Prior standard deviation of k. That of the unknown load is static friction.
 constexpr double kFrictionDeviation = 0.3;
-// Four windows, as they count then.
+// Least count of windows: four, weighted by kKept.
 constexpr double kLeastWindows = 3.8;
 
-// Of means and windows. Faster loops than this have shorter ones.
+// Lengths of means and windows. Loops with a period below kFastest_s get shorter ones.
 constexpr double kSpan_s = 0.004;
 constexpr double kWindow_s = 0.02;
 constexpr double kFastest_s = 1e-4;
@@ -50,7 +50,7 @@ InertiaEstimate::Means InertiaEstimate::means(int periods_ago) const noexcept {
   Means mean;
   mean.velocity_rad_s =
       (sums(periods_ago).position_rad - sums(periods_ago + span_).position_rad) / (span_ * config_.period_s);
-  // Trapezoids: what is summed up is linear between samples where the torque is held.
+  // Trapezoidal rule: the sums are linear between samples, since the torque is held.
   for (int k = 0; k <= span_; ++k) {
     const double share = (k == 0 || k == span_ ? 0.5 : 1.0) / span_;
     mean.impulse_Nms += share * sums(periods_ago + k).impulse_Nms;
@@ -80,7 +80,7 @@ void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexce
   way_ = way;
   if (moving_ < span_ + window_) return;
   learn(std::max(model.friction.static_Nm, kLeastScale_Nm));
-  // The next window begins with the mean that this one ended with.
+  // The next window begins with the mean that ends this one.
   moving_ = span_;
 }
 

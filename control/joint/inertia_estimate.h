@@ -4,9 +4,9 @@
 //   J (w(t) - w(t - T)) = I(t) - I(t - T) - k (R(t) - R(t - T)) - c T
 //   I = integral of (torque - known load),   R = integral of the table's friction, with the sign of the motion
 //
-// Recursive least squares with forgetting fits J, k and c over windows of T: k is friction over the table's, c an unknown load. The means of w,
-// I and R over 4 ms are used, which smooths the encoder's counts and keeps the equation exact. T is 20 ms, about one swing of the gear's
-// spring (catalogue: 12 to 36 ms), so that motor and link act as one inertia. Only windows of motion in one direction are used, since
+// Recursive least squares with forgetting fits J, k and c over windows of T: k is the friction relative to the table's, c an unknown load.
+// Means of w, I and R over 4 ms smooth the encoder's counts, and the equation stays exact. T is 20 ms, about one swing of the gear's
+// spring (catalogue: 12 to 36 ms), so that motor and link act as one inertia. Only windows of motion in one direction count, since
 // static friction balances any torque. The prior is k = 1, c = 0; the configured J is not used.
 #pragma once
 
@@ -21,39 +21,39 @@ namespace strainwave {
 
 struct InertiaEstimateConfig {
   double period_s = 0.001;  ///< > 0
-  double count_rad = 1e-6;  ///< > 0: what an encoder cannot tell
+  double count_rad = 1e-6;  ///< > 0: resolution of the encoder
   int delay_periods = 0;    ///< between a torque's command and its effect, 0..kMaxControlDelay
 };
 
 class InertiaEstimate {
  public:
-  /// What a period ended with.
+  /// State at the end of a period.
   struct Sample {
     double position_rad = 0.0;
-    /// Commanded at the begin of the period, after all limits, and the known load. Both act after the delay.
+    /// The torque commanded at the beginning of the period, after all limits, and the known load. Both act after the delay.
     double torque_Nm = 0.0;
     double known_load_Nm = 0.0;
   };
 
   explicit InertiaEstimate(const InertiaEstimateConfig& config) noexcept;
 
-  /// The next period's; `model` says what friction there is by the table, and its scale. Where a reading is missing or a period was
-  /// left out interrupt() is called in its place.
+  /// Takes the sample of the next period; `model` gives the table's friction and its scale. If a reading is missing or a period was left
+  /// out, call interrupt() instead.
   void step(const Sample& sample, const JointModel& model) noexcept;
   void interrupt() noexcept { samples_ = moving_ = 0; }
-  /// Another load, perhaps: what was learned is forgotten.
+  /// Forgets the estimate, for a load that may have changed.
   void forget() noexcept;
 
-  /// kg m2, while its standard deviation is at most kKnown of it.
+  /// In kg m2, if its standard deviation is at most kKnown of it and the windows suffice.
   std::optional<double> inertia_kgm2() const noexcept;
-  /// What the estimate may be off by, standard deviation; meaningless before windows were seen.
+  /// Standard deviation of the estimate; meaningless before the first windows.
   double deviation_kgm2() const noexcept { return deviation_kgm2_; }
 
   static constexpr double kKnown = 0.1;
 
  private:
   static constexpr unsigned kRoom =
-      512U;  ///< a power of two, above the longest span and window, and kMaxControlDelay
+      512U;  ///< a power of two, above the longest span, window and delay together
 
   struct Sums {
     double position_rad = 0.0;
@@ -73,13 +73,13 @@ class InertiaEstimate {
   InertiaEstimateConfig config_;
   int span_;                               ///< periods of a mean
   int window_;                             ///< T, periods
-  std::array<double, kRoom> torque_Nm_{};  ///< commanded, less the load
+  std::array<double, kRoom> torque_Nm_{};  ///< commanded torque less known load
   std::array<Sums, kRoom> sums_{};
   unsigned now_ = 0;
-  int samples_ = 0;  ///< without a gap
-  int moving_ = 0;   ///< of these, the last ones in which the joint moved, all one way
+  int samples_ = 0;  ///< in a row, without a gap
+  int moving_ = 0;   ///< of these, the latest ones of motion in one direction
   int way_ = 0;
-  // Normal equations of [J, k, c], and the squares of what the solution leaves, each window in units of its noise.
+  // Normal equations of [J, k, c] and the sum of the squared residuals, each window in units of its noise.
   Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
   double squares_ = 0.0;

@@ -23,7 +23,7 @@ std::vector<CatalogueJoint::Point> read_points() {
   return points;
 }
 
-// The data sheet's one number for `quantity`.
+// The number that the data sheet gives for `quantity`.
 double read_datasheet(const std::string& quantity) {
   const std::string source = "data/rhs17_datasheet.csv";
   const CsvText table = parse_csv_text(kDatasheetCsv, source);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint whose friction the catalogue knows. The catalogue's files are compiled in, so that the daemon needs none. Not real-time.
+// The joint whose friction the catalogue contains. The build compiles the catalogue's files in, so that the daemon needs no file. Not real-time.
 // Source: data/friction_parameters.csv, Zhao (2006), Table 2; data/rhs17_datasheet.csv, his Appendix A.
 #pragma once
 
@@ -21,11 +21,11 @@ struct CatalogueJoint {
   double motor_inertia_kgm2 = 0.0;  ///< the actuator's own, at the joint
   std::vector<Point> points;        ///< temperatures ascending
 
-  /// Joint side of a gear of `gear_ratio`, straight between the catalogue's temperatures, and the nearest of them beyond the last.
+  /// On the joint side of a gear of `gear_ratio`. Linear between the catalogue's temperatures, and constant beyond them.
   FrictionParameters friction_at(double temperature_C, double gear_ratio) const noexcept;
 };
 
-/// That of Zhao (2006), the reference of the design.
+/// The joint of Zhao (2006), the reference of the design.
 const CatalogueJoint& catalogue_joint();
 
 }  // namespace strainwave

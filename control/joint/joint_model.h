@@ -16,13 +16,13 @@ struct JointModel {
   FrictionParameters friction;
   StribeckShape stribeck;
 
-  /// F(|w|) > 0, and Fs for w -> 0.
+  /// F(|w|) > 0; Fs at w = 0.
   double friction_Nm(double velocity_rad_s) const noexcept {
     return velocity_rad_s == 0.0 ? friction.static_Nm
                                  : std::abs(stribeck_friction_Nm(friction, stribeck, velocity_rad_s));
   }
-  /// Mean torque against friction over a time in which the velocity changes evenly from `begin_rad_s` to `end_rad_s`: of its sign
-  /// where it goes on, and of either for as long as it lasts where the joint turns round. 0 at rest.
+  /// Mean friction torque while the velocity changes evenly from `begin_rad_s` to `end_rad_s`. If the joint reverses, each direction counts for
+  /// its share of the time. 0 at rest.
   double friction_along_Nm(double begin_rad_s, double end_rad_s) const noexcept {
     if (begin_rad_s * end_rad_s >= 0.0) {
       const double mean_rad_s = 0.5 * (begin_rad_s + end_rad_s);

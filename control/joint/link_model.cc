@@ -14,17 +14,17 @@ namespace strainwave {
 namespace {
 
 using Matrix = Eigen::Matrix4d;
-using Vector = Eigen::Vector4d;  // of a LinkState, in its order
+using Vector = Eigen::Vector4d;  // the members of LinkState, in their order
 
-// Steps of Runge and Kutta's method: this much of a swing in one, which it makes to some 1e-5 of itself. Beyond the most of them, at
-// half a kilohertz and a period of 1 ms, it is still stable.
+// Steps of the Runge-Kutta method: the angle of a swing in one step, which has a relative error of some 1e-5. At a period of 1 ms the most
+// steps suffice for swings up to 600 Hz; for faster ones the method is less exact, but still stable.
 constexpr double kStep_rad = 0.25;
 constexpr int kMostSteps = 16;
 
-// Weights of the regulator. This share of the torque limit is spent ...
+// Weights of the regulator. This share of the torque limit costs as much ...
 constexpr double kTorqueShare = 0.12;
-// ... on errors that are these shares of the wind-up that it makes, and of the speed with which that swings. Found on the grid of
-// docs/flexible-joint.md: half and twice of each end within some ten microradians of the same place.
+// ... as errors of these shares of the wind-up that the torque makes, and of the velocity of its swing. Found on the grid of
+// docs/flexible-joint.md: with half or twice each weight the joint ends within some ten microradians of the same position.
 constexpr double kLinkShare = 1.0 / 86.0;
 constexpr double kMotorShare = 1.0 / 14.0;
 constexpr double kSpeedShare = 1.0 / 12.0;
@@ -34,7 +34,7 @@ struct Sampled {
   Vector B;
 };
 
-// The linear joint over a period, by the model's own steps.
+// Samples the linear joint over a period with the model's own steps.
 Sampled sample(LinkModel joint, double period_s) noexcept {
   joint.spring = TorsionSpring::linear(joint.spring.stiffness_2_Nm_rad);
   joint.gravity = {};
@@ -76,7 +76,7 @@ LinkModel::Period LinkModel::advance(const LinkState& from, double torque_Nm,
                      (transmitted_Nm - gravity.at(at.link_position_rad)) / link_inertia_kgm2,
                      at.motor_velocity_rad_s, (torque_Nm - transmitted_Nm) / motor_inertia_kgm2};
   };
-  const int steps = 2 * ((steps_in(*this, period_s) + 1) / 2);  // one ends half-way
+  const int steps = 2 * ((steps_in(*this, period_s) + 1) / 2);  // an even number: one step ends half-way
   const double h = period_s / steps;
   Period period{from, 0.0};
   for (int step = 0; step < steps; ++step) {

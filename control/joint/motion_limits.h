@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a trajectory keeps to. Joint side, SI.
+// Limits of a trajectory. Joint side, SI.
 #pragma once
 
 namespace strainwave {
@@ -8,7 +8,7 @@ namespace strainwave {
 struct MotionLimits {
   double velocity_rad_s = 1.0;
   double acceleration_rad_s2 = 1.0;  ///< while the speed grows
-  double deceleration_rad_s2 = 1.0;  ///< while it falls; friction makes it the larger one
+  double deceleration_rad_s2 = 1.0;  ///< while the speed falls; friction makes this limit the larger one
 };
 
 }  // namespace strainwave

@@ -6,8 +6,7 @@
 namespace strainwave {
 
 namespace {
-// Acceleration that a reference always has, as a share of
-// what the torque limit gives without friction and load.
+// Least acceleration of a reference, as a share of the acceleration by the torque limit without friction and load.
 constexpr double kLeastAccelerating = 0.02;
 }  // namespace
 
@@ -22,16 +21,16 @@ MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& mot
   const double against_Nm = std::abs(load_Nm);
   const double viscous_Nm = model.friction.viscous_Nms_rad * speed_rad_s;
 
-  // The losses grow with the speed over the period, so the acceleration is solved for.
+  // The losses grow with the speed during the period, hence with the acceleration: the denominator accounts for that.
   const double damping =
       model.friction.viscous_Nms_rad + (supply_Nm < limit_Nm ? motor.torque_per_speed_Nms_rad : 0.0);
   const double driving_Nm = std::min(limit_Nm, supply_Nm) - coulomb_Nm - viscous_Nm - against_Nm;
   const double acceleration = driving_Nm / (model.inertia_kgm2 + period_s * damping);
-  // Viscous friction helps as well, but not until the end.
+  // Viscous friction also brakes, but vanishes towards the end of the motion.
   const double deceleration = (braking_Nm + coulomb_Nm - against_Nm) / model.inertia_kgm2;
 
-  // Where losses take all of the torque, less the reserve, the reference stops accelerating, trickle or not: it does not run ahead of the
-  // joint, and what brakes it brakes the joint.
+  // At the speed where losses take all of the torque less the reserve, the reference stops accelerating, in spite of the least acceleration.
+  // So it does not run ahead of the joint, and braking the reference brakes the joint.
   const double least_Nm = kLeastAccelerating * braking_Nm;
   const auto fastest = [&](double torque_Nm, double loss_Nms_rad) {
     return std::max(least_Nm, torque_Nm - coulomb_Nm - against_Nm) / loss_Nms_rad;

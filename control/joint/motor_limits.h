@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What motor, supply and friction leave for motion. Joint side, SI. Real-time safe. Source: data/rhs17_datasheet.csv.
+// Torques and accelerations that motor, supply and friction allow. Joint side, SI. Real-time safe. Source: data/rhs17_datasheet.csv.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace strainwave {
 
-/// What data sheets tell of motor and supply, seen at the joint: with a gear of ratio N and efficiency n,
+/// Data-sheet values of motor and supply, seen at the joint: with a gear of ratio N and efficiency n,
 ///   Kt = N n Kt_motor
 ///   Ke = N Ke_motor
 struct MotorData {
@@ -22,7 +22,7 @@ struct MotorData {
   double supply_V = 0.0;              ///< V; 0: not known
 };
 
-/// The motor's limits as a line over speed; by default none. The winding's inductance is not in it.
+/// The motor's torque limits as straight lines over speed; by default none. They neglect the winding's inductance.
 ///   driving:  |Tm| <= min(peak, stall - slope |w|)
 ///   braking:  the back-EMF adds to the supply, so |Tm| <= min(peak, stall + slope |w|)
 struct MotorLimits {
@@ -30,7 +30,7 @@ struct MotorLimits {
   double stall_torque_Nm = std::numeric_limits<double>::infinity();  ///< Kt V / R > 0
   double torque_per_speed_Nms_rad = 0.0;                             ///< Kt Ke / R >= 0
 
-  /// The peak torque, and the line where resistance and supply are known.
+  /// The peak torque, and the line if resistance and supply are known.
   static constexpr MotorLimits from_motor(const MotorData& motor) noexcept {
     MotorLimits limits;
     limits.peak_torque_Nm = motor.peak_torque_Nm;
@@ -47,22 +47,22 @@ struct MotorLimits {
     return std::max(0.0,
                     std::min(peak_torque_Nm, stall_torque_Nm - torque_per_speed_Nms_rad * velocity_rad_s));
   }
-  /// `torque_Nm` as far as it is available at `velocity_rad_s`.
+  /// `torque_Nm`, limited to the torque available at `velocity_rad_s`.
   double limit_Nm(double torque_Nm, double velocity_rad_s) const noexcept {
     const double along_rad_s = torque_Nm < 0.0 ? -velocity_rad_s : velocity_rad_s;
     return std::copysign(std::min(std::abs(torque_Nm), available_Nm(along_rad_s)), torque_Nm);
   }
 };
 
-/// What a motion is planned with, joint side.
+/// Torque limits for planning a motion, joint side.
 struct TorqueLimits {
   double driving_Nm = 0.0;  ///< >= 0, at most braking_Nm; less where the joint is hot
   double braking_Nm = 0.0;  ///< > 0
 };
 
-/// Acceleration and deceleration that are possible at `speed_rad_s` >= 0, under `torque`, the motor's limits, friction and load.
+/// Possible acceleration and deceleration at `speed_rad_s` >= 0, under `torque`, the motor's limits, friction and load.
 /// The share `reserve` of the torque is left to the feedback. Friction reduces the acceleration and adds to the deceleration; the load
-/// counts against both. At most `motion`, at least what 2 % of the braking torque gives.
+/// reduces both. Limits: at least the acceleration by 2 % of the braking torque, at most `motion`.
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
                               double load_Nm, const TorqueLimits& torque, double reserve, double speed_rad_s,
                               double period_s) noexcept;

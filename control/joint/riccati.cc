@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-// Each step doubles the horizon: 2^60 samples are more than any joint lives.
+// Each step doubles the horizon: 2^60 samples exceed any joint's life.
 constexpr int kMostDoublings = 60;
 constexpr double kConverged = 1e-12;
 
@@ -17,7 +17,7 @@ std::optional<Eigen::MatrixXd> solve_riccati(const Eigen::MatrixXd& A, const Eig
                                              const Eigen::VectorXd& W, double R) {
   using Matrix = Eigen::MatrixXd;
   const Eigen::Index size = W.size();
-  // In z, x = W^(-1/2) z, where the weights are one.
+  // Solved in coordinates z with x = W^(-1/2) z, in which W is the identity.
   const Eigen::VectorXd root = W.cwiseSqrt();
   const Eigen::VectorXd inverse = root.cwiseInverse();
   Matrix step = root.asDiagonal() * A * inverse.asDiagonal();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discrete algebraic Riccati equation of one linear plant: the optimal cost without limits. Not real-time.
+// Solves the discrete algebraic Riccati equation of a linear plant: the optimal cost without limits. Not real-time.
 // Source: Chu, Fan, Lin and Wang, "Structure-preserving algorithms for periodic discrete-time algebraic Riccati
 // equations", Int. J. Control 77 (2004): doubling.
 #pragma once

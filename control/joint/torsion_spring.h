@@ -15,7 +15,7 @@ struct TorsionSpring {
   double torque_2_Nm = 0.0;         ///< T2 >= T1
   double stiffness_3_Nm_rad = 0.0;  ///< K3 > 0, beyond
 
-  /// One slope throughout.
+  /// A spring with one slope.
   static constexpr TorsionSpring linear(double stiffness_Nm_rad) noexcept {
     return {stiffness_Nm_rad, 0.0, stiffness_Nm_rad, 0.0, stiffness_Nm_rad};
   }
@@ -56,7 +56,7 @@ inline double free_free_frequency_rad_s(double motor_inertia_kgm2, double link_i
   return std::sqrt(stiffness_Nm_rad * (1.0 / motor_inertia_kgm2 + 1.0 / link_inertia_kgm2));
 }
 
-/// The damper that gives this swinging, on the first slope, the share `ratio` of critical damping.
+/// Damping that gives this swing, on a spring of `stiffness_Nm_rad`, the share `ratio` of critical damping.
 inline double structural_damping_Nms_rad(double motor_inertia_kgm2, double link_inertia_kgm2,
                                          double stiffness_Nm_rad, double ratio) noexcept {
   return 2.0 * ratio * stiffness_Nm_rad /

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrices with a bound on the error of every entry: what bounded.h does for numbers, in whole products. No heap; real-time safe.
+// Matrices with an error bound for every entry, like the numbers of bounded.h, for whole products. No heap; real-time safe.
 //
 // For C = A B with k terms per entry, in any order of summation,
 //   |C - computed| <= |A| eB + eA |B| + eA eB + (k + 1) u |A| |B|,   u = 2^-53
-// The bounds are themselves sums of non-negative terms; kUp is more than their rounding. Source: Higham, "Accuracy and Stability of
+// The bounds are themselves sums of non-negative terms; kUp covers their rounding. Source: Higham, "Accuracy and Stability of
 // Numerical Algorithms", section 3.5.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace strainwave {
 
-/// The largest size of a matrix of a proof: the loop of a box.
+/// The largest matrix of a proof: the loop of a box.
 inline constexpr int kMaxProofStates = loop_states(kSpringPlantStates, kMaxBoxDelay, kMaxLeadPeriods);
 using ProofMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxProofStates, kMaxProofStates>;
@@ -36,7 +36,7 @@ struct BoundedMatrix {
     error(row, column) = entry.error;
   }
   BoundedMatrix transpose() const { return from(value.transpose(), error.transpose()); }
-  /// Of every entry's absolute value, its largest possible.
+  /// Largest possible absolute value of every entry.
   ProofMatrix magnitude() const { return kUp * (value.cwiseAbs() + error); }
 
   static BoundedMatrix from(const ProofMatrix& value, const ProofMatrix& error) {
@@ -44,11 +44,11 @@ struct BoundedMatrix {
     result.error = error;
     return result;
   }
-  /// More than the rounding of a bound: sums of at most three times kMaxProofStates terms.
+  /// Covers the rounding of a bound: sums of at most three times kMaxProofStates terms.
   static constexpr double kUp = 1.0 + 128.0 * bounded_detail::kHalfUlp;
 };
 
-// Entry by entry: Eigen's products in blocks are for larger matrices, and cost seconds in every file that multiplies.
+// Entry by entry: Eigen's blocked products are for larger matrices, and take seconds to compile in every file that multiplies.
 inline BoundedMatrix operator*(const BoundedMatrix& a, const BoundedMatrix& b) {
   const ProofMatrix size_a = a.value.cwiseAbs();
   const ProofMatrix size_b = b.value.cwiseAbs();
@@ -71,7 +71,7 @@ inline BoundedMatrix operator-(const BoundedMatrix& a, const BoundedMatrix& b) {
   return a + BoundedMatrix::from(-b.value, b.error);
 }
 
-/// Times a number that is not a power of two: one rounding.
+/// Multiplies by any number, which costs one rounding for each entry.
 inline BoundedMatrix operator*(const Bounded& factor, const BoundedMatrix& a) {
   const ProofMatrix product = factor.value * a.value;
   const ProofMatrix inherited = (std::abs(factor.value) + factor.error) * a.error +

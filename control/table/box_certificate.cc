@@ -29,8 +29,8 @@ std::span<const BoxCell> cells_of(const CertifiedBox& box) {
   return std::span(box.cells).first(static_cast<std::size_t>(box.cell_count));
 }
 
-// Where a cell begins or ends within `whole`, whose ends are the first and the last. What lies between two that are the same, a cell beside
-// it holds.
+// Where cells begin or end within `whole`, sorted, with the ends of `whole` as first and last. Equal edges may repeat: a cell beside
+// them covers the empty interval between them.
 std::vector<double> edges(const BoxRange& whole, std::span<const BoxCell> cells, BoxRange BoxCell::*range) {
   std::vector<double> all{whole.from, whole.to};
   for (const BoxCell& cell : cells)
@@ -40,7 +40,7 @@ std::vector<double> edges(const BoxRange& whole, std::span<const BoxCell> cells,
   return all;
 }
 
-// The first rectangle between edges that no cell of this delay holds.
+// The first rectangle between edges that no cell of this delay covers.
 std::optional<std::string> find_gap(const CertifiedBox& box, int delay_periods) {
   const std::span<const BoxCell> cells = cells_of(box);
   const std::vector<double> K = edges(box.stiffness_Nm_rad, cells, &BoxCell::stiffness_Nm_rad);
@@ -165,7 +165,7 @@ std::optional<std::string> find_outside_box(const GainTable& table, const std::o
            "--inertia_kgm2 without --load-inertia_kgm2";
   if (link)
     if (auto outside_spring = find_spring_outside(box, *link)) return outside_spring;
-  const bool proves_nothing = box.cell_count == 0;  // which certify_box() says
+  const bool proves_nothing = box.cell_count == 0;  // certify_box() reports it
   if (!proves_nothing && (delay_periods < box.least_delay || delay_periods > box.most_delay))
     return outside("delay_periods", std::to_string(delay_periods),
                    periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}));

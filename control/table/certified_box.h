@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a gain table says of the joints that its gains are stable on, with all that the proof needs: the box, cut into cells by stiffness
-// and link inertia, each with a Lyapunov matrix. A rigid joint's box has one cell for each delay. Plain structs that can be copied as
-// bytes; real-time safe to read. What is proved of them: box_certificate.h.
+// The joints on which the gains of a table are stable, with the data of the proof. The box is cut into cells by stiffness and link
+// inertia, each with a Lyapunov matrix. A rigid joint's box has one cell for each delay. Plain structs that can be copied as
+// bytes; real-time safe to read. The proof is in box_certificate.h.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ struct BoxRange {
   bool operator==(const BoxRange&) const = default;
 };
 
-/// Cells of all delays together, and the delays there may be.
+/// Limits for the cells of all delays together, for the delay and for the lead.
 inline constexpr int kMaxBoxCells = 24;
 inline constexpr int kMaxBoxDelay = 2;
 inline constexpr double kMaxLeadPeriods = 10.0;
-/// A proof may halve a cell, and its halves, so many times.
+/// A proof may halve a cell, and its halves again, this many times.
 inline constexpr int kMostHalvings = 8;
-/// States of the plant (spring_plant.h): those of a motor, and with a spring those of the wind-up.
+/// States of the plant (spring_plant.h): those of a motor, and with a spring also those of the wind-up.
 inline constexpr int kRigidPlantStates = 2;
 inline constexpr int kSpringPlantStates = 4;
 
@@ -41,19 +41,19 @@ constexpr std::size_t triangle_entries(int states) noexcept {
 inline constexpr std::size_t kCellEntries =
     triangle_entries(loop_states(kSpringPlantStates, kMaxBoxDelay, kMaxLeadPeriods));
 
-/// A part of the box with one P; in it stiffness and both inertias may be another at every sample. The motor's inertia is the box's.
+/// A part of the box with one P. In it stiffness and both inertias may change at every sample. The motor's inertia is the box's.
 struct BoxCell {
   std::int32_t delay_periods = 0;
   BoxRange stiffness_Nm_rad;
   BoxRange link_inertia_kgm2;
-  /// Upper triangle, row by row, a row for each state of the loop; zeros after it, and in the integral's row without an integrator.
+  /// Upper triangle, row by row, a row for each state of the loop; zeros beyond it, and in the integral's row without an integrator.
   std::array<double, kCellEntries> P{};
 
   bool operator==(const BoxCell&) const = default;
 };
 
-/// Rigid: inertias, stiffness, damping and lead are 0, in the cells, too, and the inertia is the table's; no cell: nothing is proved. The
-/// friction of the motor's side is the rules' own, from 0 to the largest.
+/// A rigid joint has 0 for inertias, stiffness, damping and lead, also in the cells; its inertia is the table's. Without a cell nothing is
+/// proved. Viscous friction of the motor ranges from 0 to the largest of the rules.
 struct CertifiedBox {
   EncoderSide encoder_side = EncoderSide::kMotor;
   BoxRange motor_inertia_kgm2;   ///< > 0, of the motor's side, at the joint
@@ -62,7 +62,7 @@ struct CertifiedBox {
   BoxRange damping_Nms_rad;      ///< >= 0, of the wind-up's speed
   std::int32_t least_delay = 0;  ///< periods between a torque's computation and its effect, 0..kMaxBoxDelay
   std::int32_t most_delay = 0;
-  /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Rigid joints have none.
+  /// Lead of the feedback on these joints, 0..kMaxLeadPeriods (scheduled_controller.h). Rigid joints have none.
   double lead_periods = 0.0;
   std::int32_t cell_count = 0;
   std::array<BoxCell, kMaxBoxCells> cells{};

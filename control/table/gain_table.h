@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain
+// The gain table: everything that the loop needs to control one kind of joint, and the data of its proof. A plain
 // struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see docs/theory.md.
 //
 // State of the error dynamics, in this order:
@@ -32,10 +32,10 @@ using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
 using GainRow = Eigen::RowVector3d;
 
-/// What a table was designed for. The daemon refuses a table whose identity is not its joint's.
+/// The plant that a table was designed for. The daemon refuses a table whose identity is not its joint's.
 struct PlantIdentity {
   FixedString<32> joint_model;  ///< e.g. "rhs17-6006"
-  FixedString<32> gear;         ///< its name in data/gears.csv, e.g. "csf-17-50"; empty: not said
+  FixedString<32> gear;         ///< its name in data/gears.csv, e.g. "csf-17-50"; empty: unknown
   double inertia_kgm2 = 0.0;    ///< J > 0, at the joint side
   double gear_ratio = 0.0;      ///< N > 0
   double period_s = 0.0;        ///< ts > 0
@@ -79,10 +79,10 @@ struct FeedbackGains {
   bool operator==(const FeedbackGains&) const = default;
 };
 
-/// How the plant was sampled for the design: as the loop does it, or as Zhao (2006) did.
+/// How the design sampled the plant: by forward Euler as Zhao (2006) did, or with held torque as the loop does.
 enum class Sampling : std::int32_t { kForwardEuler = 0, kZeroOrderHold = 1 };
 
-/// Where a table came from. Nothing in the loop reads it, and no proof does.
+/// Origin of a table. Neither the loop nor a proof reads it.
 struct Provenance {
   Sampling sampling = Sampling::kZeroOrderHold;
   FixedString<32> created_utc;      ///< ISO 8601
@@ -98,7 +98,7 @@ struct GainTable {
   std::int32_t format = kGainTableFormat;
   FixedString<48> name;
   PlantIdentity plant;  ///< the one inertia that the gains are designed for
-  CertifiedBox box;     ///< the joints with a spring that they are certified on besides
+  CertifiedBox box;     ///< the joints that the gains are certified on
   FuzzyFriction friction;
   double torque_limit_Nm = 0.0;  ///< symmetric, joint side; the joint's own limit applies as well
   FeedbackGains primary;         ///< C4 (or C1 to C3)
@@ -107,14 +107,14 @@ struct GainTable {
   bool operator==(const GainTable&) const = default;
 };
 
-/// Whether two of a joint's numbers are one, however they were written and read: |a - b| <= 1e-9 |b|. False with NaN.
+/// Whether two numbers of a joint are equal except for their rounding in files: |a - b| <= 1e-9 |b|. False with NaN.
 bool is_same_number(double a, double b) noexcept;
 
-/// Whether the joint's inertia must be the one that the table is designed for, or may be any that its box holds.
+/// Whether the joint's inertia must equal the table's, or may be any inertia in its box.
 enum class InertiaCheck { kSame, kOfTheBox };
 
-/// Why `table` is not for the joint that `expected` describes (model; ratio, period and, if asked for, inertia, each as
-/// is_same_number() has it; the gear where both name one), or nothing.
+/// Why `table` does not fit the joint that `expected` describes, or nothing. Compared are the model, the gear where both name one, and, by
+/// is_same_number(), ratio, period and, if requested, inertia.
 std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected,
                                                   InertiaCheck inertia = InertiaCheck::kSame);
 

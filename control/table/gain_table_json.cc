@@ -16,8 +16,8 @@ namespace strainwave {
 namespace {
 
 constexpr Range kAny{-kMost, kMost};
-// Of the torque limit: a joint that needs more to break away has less left for motion than friction takes; the coldest rule of the
-// catalogue's joint needs 0.17.
+// Largest static friction as a share of the torque limit: with more, friction takes more torque than it leaves for motion. The coldest
+// rule of the catalogue's joint has 0.17.
 constexpr double kMaxStaticShare = 0.5;
 
 }  // namespace
@@ -60,7 +60,7 @@ void fields(Json& json, FeedbackGains& gains) {
     ranged(rule, "F", gains.F[j], kAny);
     rule.matrix("P", gains.P[j], kMaxStates);
     const StateMatrix P = gains.lyapunov(static_cast<int>(j));
-    // NaN is not symmetric, either.
+    // NaN is refused as well, since it is not symmetric.
     rule.require(P == P.transpose() && P.cwiseAbs().maxCoeff() <= kMost, "P", "symmetric");
     rule.require(has_integrator || (gains.F[j][0] == 0.0 && P.row(0).isZero(0.0)), "P",
                  "0, as F is, in the integral's row without an integrator");
@@ -136,7 +136,7 @@ void fields(Json& json, CertifiedBox& box) {
 
 namespace {
 
-// Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
+// Friction is fed forward in addition to the certified feedback. It must be physical, and less than the motor can give.
 template <typename Json>
 void require_friction(Json& json, const GainTable& table) {
   const double most_Nm = kMaxStaticShare * table.torque_limit_Nm;
@@ -160,7 +160,7 @@ void require_friction(Json& json, const GainTable& table) {
 template <typename Json>
 void fields(Json& json, GainTable& table) {
   json.refuse("exponential", "holds fitted friction, not gains: strainwave-design gains makes a table of it");
-  // The format first: another one has other keys.
+  // The format is checked first, since another format has other keys.
   json.format(kGainTableFormat, "design the table again");
   json("name", table.name);
   json.require(!table.name.view().empty(), "name", "a name");
@@ -181,7 +181,7 @@ std::string to_json(const GainTable& table) {
   return json_text(table);
 }
 
-// A table is what its keys say, and zeros beyond: no two tables that act alike have other bytes.
+// A table holds its keys, and zeros in all other bytes: tables that act alike have the same bytes.
 std::optional<std::string> find_defect(const GainTable& table) {
   if (table.format != kGainTableFormat)
     return "format = " + std::to_string(table.format) + ": this program reads format " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Here is what a table must be in its
-// structure: counts, finite numbers, signs and ranges of every field. Not real-time.
+// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Reading checks the structure of a
+// table: counts, finite numbers, signs and ranges of every field. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@
 
 namespace strainwave {
 
-/// The first defect of a table that came in another way than by JSON, in words (key, value, what is allowed), or nothing. Whether the gains
-/// stabilise the plant is box_certificate.h's question.
+/// The first defect of a table that did not come as JSON, in words (key, value, what is allowed), or nothing. box_certificate.h proves
+/// whether the gains stabilise the plant.
 std::optional<std::string> find_defect(const GainTable& table);
 
-/// Pretty-printed JSON that reads back to the same bits. Throws InputError of a table with a defect.
+/// Pretty-printed JSON that reads back to the same bits. Throws InputError if the table has a defect.
 std::string to_json(const GainTable& table);
 
 /// Reads what to_json wrote. Throws InputError naming `source`, the key, the value and what is allowed:
 /// malformed JSON, unknown, missing or repeated keys, wrong types and sizes, another format, and every defect.
 GainTable gain_table_from_json(std::string_view text, const std::string& source);
 
-/// The same from and to a file. Writing replaces the file only once the new text is whole.
+/// The same from and to a file. Writing replaces the file only once the new text is complete.
 GainTable read_gain_table(const std::filesystem::path& path);
 void write_gain_table(const GainTable& table, const std::filesystem::path& path);
 

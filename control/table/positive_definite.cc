@@ -14,8 +14,7 @@ namespace {
 
 using bounded_detail::kHalfUlp;
 
-// Powers of two are exact only away from underflow and overflow; a matrix beyond this range is not a design
-// of ours.
+// Powers of two are exact only away from underflow and overflow; no gain table has a matrix beyond this range.
 constexpr double kLargestEntry = 0x1p400;
 
 struct Balanced {
@@ -69,15 +68,15 @@ PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const P
   const Balanced balanced = balance(matrix, error, size);
   double trace = 0.0;
   for (int i = 0; i < size; ++i) trace += balanced.matrix(i, i);
-  // When Cholesky succeeds, the matrix it was given is no further than gamma_k/(1 - gamma_k) * trace, k = n + 1
-  // (about k half ulps of the trace), from one that is positive definite (Rump, 2006). 4 k also covers the
-  // rounding of the shift and of this line; the balanced entries are near 1, so that underflow is far below it.
+  // When Cholesky succeeds, a positive definite matrix is no farther than gamma_k/(1 - gamma_k) * trace from the given one, k = n + 1
+  // (Rump, 2006). This is about k half ulps of the trace. 4 k also covers the rounding of the shift and of this line. The balanced
+  // entries are near 1, so that underflow is far below it.
   const double shift = (1.0 + 64.0 * kHalfUlp) * balanced.error_norm + 4.0 * (size + 1) * kHalfUlp * trace;
   ProofMatrix shifted = balanced.matrix;
   for (int i = 0; i < size; ++i) shifted(i, i) -= shift;
   if (!shifted.allFinite()) return result;
 
-  // In any order of summation. What overflows leaves a factor that is not finite, and is no proof.
+  // Valid in any order of summation. An overflow leaves a factor that is not finite, which is no proof.
   const Eigen::LLT<ProofMatrix> cholesky(shifted);
   result.certain = cholesky.info() == Eigen::Success && cholesky.matrixLLT().allFinite();
   const Eigen::SelfAdjointEigenSolver<ProofMatrix> solver(balanced.matrix, Eigen::EigenvaluesOnly);

@@ -33,7 +33,7 @@ auto& range_of(Box& box, std::size_t dimension) {
   }
 }
 
-// Bit d of `corner` says which end of dimension d it is at.
+// Bit d of `corner` selects the end of dimension d.
 SpringPlant corner_of(const SpringBox& box, std::size_t corner) {
   const auto end = [&](std::size_t d) {
     return (corner >> d & 1U) != 0 ? range_of(box, d).to : range_of(box, d).from;
@@ -46,7 +46,7 @@ bool is_wide(const SpringBox& box, std::size_t dimension) {
   return range.from != range.to;
 }
 
-// Of directions without width only one end counts.
+// Whether the corner differs from earlier ones: a dimension without width has only one end.
 bool is_new(const SpringBox& box, std::size_t corner) {
   for (std::size_t d = 0; d < kDimensions; ++d)
     if ((corner >> d & 1U) != 0 && !is_wide(box, d)) return false;
@@ -87,7 +87,7 @@ SpringCorners spring_corners(const SpringBox& box, double period_s) {
   return result;
 }
 
-// Any l > 0 proves; this one makes both terms as large, in the fall's own norm.
+// Any l > 0 gives a proof; this choice makes both terms equally large in the norm of the fall.
 BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H) {
   const Eigen::Index n = P.value.rows();
   const BoundedMatrix middle(H.value);
@@ -157,7 +157,7 @@ class BoxProof {
     return test_positive_definite(fall.value, fall.error, states());
   }
 
-  // The margins that count are those of the parts that are proved; of a refusal that of the corner itself.
+  // A proof reports the least margin of its proved parts, a refusal that of the corner that fails.
   Outcome test(const SpringCorners& box) {
     SpringReport found = report_;
     for (const SpringCorner& corner : box.corners) {

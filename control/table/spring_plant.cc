@@ -12,12 +12,12 @@ namespace strainwave {
 namespace {
 
 constexpr int kTerms = 30;
-// The weighted norm up to which the remainder is far below rounding: 4^31 / 31! = 6e-16, of what is then large.
+// The weighted norm up to which the remainder is far below the rounding of the then large sum: 4^31 / 31! = 6e-16.
 constexpr double kMostNorm = 4.0;
 
 using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kSpringPlantStates + 1, 1>;
 
-// Positions count 1, velocities the fastest swing, the torque what makes such a velocity in a period: any weights prove, these well.
+// Positions have weight 1, velocities the fastest swing, the torque one that makes such a velocity in a period. Any weights give a proof.
 Weights weights_of(const ProofMatrix& size) {
   const Eigen::Index u = size.rows() - 1;
   const double stiffness = u == kSpringPlantStates ? size(3, 2) : 0.0;
@@ -45,7 +45,7 @@ ProofMatrix in_units(const Weights& d, double amount) {
   return BoundedMatrix::kUp * amount * units;
 }
 
-// More than sum_{k > n} beta^k / k!.
+// Upper bound of sum_{k > n} beta^k / k!.
 double tail_of_series(double beta, int n) {
   if (!(beta <= kMostNorm)) return std::numeric_limits<double>::infinity();
   double term = 1.0;
@@ -93,7 +93,7 @@ BoundedMatrix spring_exponential(const BoundedMatrix& generator) {
   return sum;
 }
 
-// The terms of exp(M + t N) and their two derivatives by t, all as large as they can be.
+// Sums the terms of exp(M + t N) and of its first two derivatives by t, with every entry at its largest.
 ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& change) {
   const Weights d = weights_of(size);
   const Eigen::Index n = size.rows();
@@ -109,7 +109,7 @@ ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& chan
   }
   const double changes = norm(change, d);
   const double tail = changes * changes * tail_of_series(norm(size, d), kTerms - 2);
-  // Every step multiplies the bounds' own rounding; kTerms of them and the sum stay far below this.
+  // Every step multiplies the rounding of the bounds; kTerms steps and the sum stay far below this factor.
   return (1.0 + kTerms * 256.0 * bounded_detail::kHalfUlp) * 0.125 * (sum + in_units(d, tail));
 }
 
@@ -124,7 +124,7 @@ BoundedMatrix without_integral(const BoundedMatrix& H) {
   return BoundedMatrix::from(H.value.bottomRightCorner(n, n), H.error.bottomRightCorner(n, n));
 }
 
-// u of l, which is a state, too.
+// u from l, which is a state as well.
 BoundedMatrix with_lead(const BoundedMatrix& law, double lead_periods) {
   BoundedMatrix torque = (Bounded(1.0) + lead_periods) * law;
   torque.set(0, law.value.cols() - 1, -lead_periods);
@@ -148,7 +148,7 @@ BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, con
   BoundedMatrix H(n, n);
   H.set(0, 0, 1.0);
   H.set(z, z, Bounded(1.0) - share);
-  // Of the states in y: the motor's position, and the link's place beside it.
+  // States in y: the motor's position, and for an encoder on the link the wind-up.
   for (const Eigen::Index y : {1, 3}) {
     if (y == 3 && (loop.encoder_side == EncoderSide::kMotor || plant == kRigidPlantStates)) break;
     law.set(0, y, Bounded(gain(1)) + by_difference);

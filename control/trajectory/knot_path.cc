@@ -12,7 +12,7 @@ namespace strainwave {
 
 namespace {
 
-// Knots are computed: one that is at a limit is not beyond it for its last bits.
+// Knots are computed numbers: a knot at a limit may exceed it by rounding.
 constexpr double kRounding = 1.0 + kAtBound;
 
 /// One cubic.
@@ -37,7 +37,7 @@ Segment segment_between(const PathKnot& from, const PathKnot& to) noexcept {
           6.0 * (from.velocity_rad_s + to.velocity_rad_s - 2.0 * mean_rad_s) / (T * T)};
 }
 
-// Where it turns round: v0 + a0 u + j u^2 / 2 = 0, in the form that loses no digits. Not finite where it does not.
+// Times of reversals: v0 + a0 u + j u^2 / 2 = 0, in the form that loses no digits. Not finite without a reversal.
 std::array<double, 2> turns_of(const Segment& segment) noexcept {
   const double a = segment.acceleration_rad_s2;
   const double j = segment.jerk_rad_s3;
@@ -48,12 +48,12 @@ std::array<double, 2> turns_of(const Segment& segment) noexcept {
 
 using Found = std::optional<std::string>;
 
-/// The limits, one by one, at one place of a path.
+/// Checks one place of a path against each limit.
 class Judge {
  public:
   Judge(const PathLimits& limits, std::size_t knot) : limits_(limits), knot_(knot) {}
 
-  /// `number`: "time_s = ", with its value; `bound`: which it is beyond.
+  /// `number`: label of `value`, such as "time_s = "; `bound`: the limit that `value` exceeds.
   std::string defect(double time_s, const char* number, double value, double bound,
                      const std::string& allowed) const {
     std::ostringstream text;
@@ -75,7 +75,7 @@ class Judge {
     return above("speed in rad/s = ", std::abs(velocity_rad_s), limits_.motion.velocity_rad_s,
                  "speed_limit_rad_s", time_s);
   }
-  /// `growing`, `falling`: what the speed does beside this instant.
+  /// `growing`, `falling`: whether the speed grows or falls next to this instant.
   Found acceleration(double acceleration_rad_s2, bool growing, bool falling, double time_s) const {
     const double size_rad_s2 = std::abs(acceleration_rad_s2);
     const MotionLimits& motion = limits_.motion;
@@ -102,7 +102,7 @@ class Judge {
   std::size_t knot_;
 };
 
-// At its begin a segment's speed does what it does afterwards, at its end what it did before.
+// At rest the speed grows after the beginning of a segment, and falls before its end.
 Found judge_ends(const Segment& segment, const Judge& judge) {
   for (const bool begins : {true, false}) {
     const double since_s = begins ? 0.0 : segment.duration_s;
@@ -144,7 +144,7 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, const PathLimit
     return judge.defect(here.time_s, "time_s = ", here.time_s, 0.0,
                         "0 is allowed, the first knot begins the path");
   const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + limits.period_s;
-  // A path is made in decimals: a knot that is a period later may be so but for its last bits.
+  // Paths are written in decimals: a knot one period later may miss that by rounding.
   if (here.time_s * kRounding < earliest_s)
     return judge.defect(here.time_s, "time_s = ", here.time_s, earliest_s,
                         "at least " + bound_text(earliest_s) + " is allowed, a period after the knot before");
@@ -182,7 +182,7 @@ std::optional<std::string> find_defect(const KnotPath& path, const PathLimits& l
     const PathKnot& here = path.knots[knot];
     if (auto found = Judge(limits, knot).position(here.position_rad, here.time_s)) return found;
   }
-  // Speeds, too: between two that no joint has no acceleration is a number.
+  // Speeds are checked before segments: an acceleration between impossible speeds may not be finite.
   for (std::size_t knot = 0; knot < path.count; ++knot) {
     const PathKnot& here = path.knots[knot];
     if (auto found = Judge(limits, knot).speed(here.velocity_rad_s, here.time_s)) return found;

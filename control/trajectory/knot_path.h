@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The path of one joint: knots with time, position and velocity, and the cubics of Hermite between them. Evaluated in constant time while
-// time goes on, and checked as a whole before anything moves. Joint side, SI. at() is real-time safe; a path is a plain struct that can be
-// copied as bytes. Source: the cubic that has two positions and two velocities, and the extremes of polynomials.
+// The path of one joint: knots with time, position and velocity, and cubic Hermite segments between them. Reading it forwards takes constant
+// time. The whole path is checked before anything moves. Joint side, SI. at() is real-time safe; a path is a plain struct that can be
+// copied as bytes. Source: Hermite interpolation, and the extremes of polynomials.
 //
 // Between two knots, T apart, with the mean rate d = (p1 - p0) / T and u the time since the first:
 //
@@ -11,8 +11,8 @@
 //   v  = v0 + u a0 + u^2 j / 2
 //   a  = a0 + u j
 //
-// Position and velocity have no step; the acceleration has one at knots, unless they were chosen so that it has none. Positions are
-// extreme at knots and where v = 0, velocities where a = 0, accelerations at knots.
+// Position and velocity are continuous. The acceleration steps at knots, unless they were chosen to avoid this. Positions are extreme at
+// knots and where v = 0, velocities where a = 0, accelerations at knots.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct PathKnot {
   double velocity_rad_s = 0.0;
 };
 
-/// The cubic (Hermite) between two knots, at an instant between theirs. Real-time safe.
+/// The cubic Hermite segment between two knots, at an instant between theirs. Real-time safe.
 Reference on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept;
 
 struct KnotPath {
@@ -42,31 +42,31 @@ struct KnotPath {
   double duration_s() const noexcept { return last().time_s; }
 };
 
-/// Reads a path forwards. A path that is read has no defect (below).
+/// Reads a path forwards. The path must have passed find_defect().
 class PathReader {
  public:
-  /// The path at `time_s`, not before that of the last call (a new reader begins at 0); at its end from there on, at rest. The knot that
-  /// it is at moves on with the time, so that a period costs the same whatever the number of knots.
+  /// The path at `time_s`, which must not be before that of the last call (a new reader begins at 0). After its end the path rests there. The
+  /// reader remembers its segment, so that a period costs the same for any number of knots.
   Reference at(const KnotPath& path, double time_s) noexcept;
 
  private:
   std::size_t segment_ = 0;  ///< from this knot to the next
 };
 
-/// What a joint can do on a path. All finite, speeds and accelerations > 0.
+/// Limits of a joint on a path. All finite, speeds and accelerations > 0.
 struct PathLimits {
   PositionRange range;
   MotionLimits motion;
-  double torque_Nm = 0.0;     ///< > 0, for the inertia alone: friction and load take theirs besides
+  double torque_Nm = 0.0;     ///< > 0, compared with the torque of the inertia, without friction and load
   double inertia_kgm2 = 0.0;  ///< > 0
-  double period_s = 0.0;      ///< > 0: knots are not closer
+  double period_s = 0.0;      ///< > 0, the least time between two knots
 };
 
 inline constexpr double kLongestPath_s = 3600.0;
 
-/// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, of its speeds, then of the
-/// ways between them; nothing: it can be followed. "knot 3 (at 1.2 s): " at it, or between it and the next; the number that is wrong; what
-/// is allowed, and by which limit. Not real-time.
+/// The first defect of `path` for a joint with these limits, or nothing. It checks all numbers first, then positions, then speeds, then the
+/// segments. The text names the knot ("knot 3 (at 1.2 s): ", also for the segment that begins there), the wrong number, the allowed value
+/// and its limit. Not real-time.
 std::optional<std::string> find_defect(const KnotPath& path, const PathLimits& limits);
 
 }  // namespace strainwave

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The polynomial about a point that fits its neighbours best (Savitzky and Golay 1964, on unequal times); its value there is kept:
+// The polynomial through a point that fits its neighbours best (Savitzky and Golay 1964, here for unequal times):
 //
 //   q(t) = value + c1 t + c2 t^2 + .. c5 t^5,   sum over the neighbours of (q(ti) - qi)^2 least
 //
-// Of fewer than five neighbours the degree is their number. Real-time safe.
+// With fewer than five neighbours the degree is their number. Real-time safe.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,7 +14,7 @@ namespace strainwave {
 
 class LocalPolynomial {
  public:
-  /// A neighbour at `time_s` from the point, and by how much its value is above the point's.
+  /// Adds a neighbour, at `time_s` after the point; `rise` is its value less the point's.
   void add(double time_s, double rise) noexcept {
     Powers powers;
     double power = 1.0;
@@ -33,7 +33,7 @@ class LocalPolynomial {
 
  private:
   static constexpr int kDegree = 5;
-  static constexpr double kUnit_s = 0.1;  ///< of time, which keeps the equations well conditioned
+  static constexpr double kUnit_s = 0.1;  ///< unit of time that keeps the equations well conditioned
   using Powers = Eigen::Matrix<double, kDegree, 1>;
 
   Eigen::Matrix<double, kDegree, kDegree> normal_ = Eigen::Matrix<double, kDegree, kDegree>::Zero();

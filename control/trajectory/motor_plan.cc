@@ -11,14 +11,14 @@ namespace strainwave {
 
 namespace {
 
-// Two means of one period at least on a spring: else the acceleration steps.
+// On a spring each mean lasts at least one period: otherwise the acceleration steps.
 constexpr int kLeastSpread = 2;
-// Periods that a plan has rested which begins at rest, and about the most that are counted.
+// Rest periods of a plan that begins at rest, and about the largest number that is counted.
 constexpr int kEver = std::numeric_limits<int>::max() / 2;
-// Of the way to the motion, in a period.
+// Share of the way to the motion by which the model yields in a period.
 constexpr double kYield = 0.2;
 
-// sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits; nothing without a spring.
+// sqrt(8) / w, with w for the secant stiffness at half the torque that the hardest acceleration transmits; 0 without a spring.
 double swing_periods(const MotorPlannerConfig& c) noexcept {
   const LinkModel& joint = c.joint;
   if (joint.rigid()) return 0.0;
@@ -49,14 +49,14 @@ SmoothWindUp::SmoothWindUp(const TorsionSpring& spring) noexcept
     : far_rad_Nm_(1.0 / spring.stiffness_3_Nm_rad),
       extra_rad_Nm_(1.0 / spring.stiffness_1_Nm_rad - far_rad_Nm_),
       width_Nm_(0.0) {
-  // What the softer slopes add to the angle, far out: extra * width * pi / 2.
+  // The angle that the softer slopes add far out: extra * width * pi / 2.
   const double added_rad =
       extra_rad_Nm_ * spring.torque_1_Nm +
       (1.0 / spring.stiffness_2_Nm_rad - far_rad_Nm_) * (spring.torque_2_Nm - spring.torque_1_Nm);
   if (extra_rad_Nm_ > 0.0 && added_rad > 0.0)
     width_Nm_ = 2.0 * added_rad / (std::numbers::pi * extra_rad_Nm_);
   else
-    extra_rad_Nm_ = 0.0;  // one slope, or one that the planned torque need not be smooth for
+    extra_rad_Nm_ = 0.0;  // one slope, or a first slope that is not softer: only the last slope counts
 }
 
 double SmoothWindUp::angle_rad(double torque_Nm) const noexcept {
@@ -92,17 +92,17 @@ MotorPlanner::MotorPlanner(const MotorPlannerConfig& config) noexcept
 }
 
 double MotorPlanner::reset(double motor_position_rad, double velocity_rad_s) noexcept {
-  // Gravity hardly changes over the wind-up that it makes: each round leaves a thousandth of the last one's error.
+  // Gravity hardly changes over its own wind-up: each round reduces the error to about a thousandth.
   double position_rad = motor_position_rad;
   for (int round = 0; round < 3; ++round) position_rad -= motor_rest_rad(position_rad) - motor_position_rad;
-  // The plan is ahead of the reading by the delay.
+  // The plan leads the reading by the delay.
   position_rad += config_.delay_periods * config_.period_s * velocity_rad_s;
   const double between_rad = position_rad + second_.lag_s() * velocity_rad_s;
   const double planned_rad = between_rad + first_.lag_s() * velocity_rad_s;
   first_.reset(planned_rad, velocity_rad_s);
   second_.reset(between_rad, velocity_rad_s);
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    // The newest, of the last period, moves on to `next_` with the first step.
+    // The newest state is one period old; the first step() adds `next_` in front of it.
     const double ago_s = static_cast<double>(i + 1) * config_.period_s;
     states_[i] = flat({position_rad - ago_s * velocity_rad_s, velocity_rad_s, 0.0, 0.0}, 0.0);
   }
@@ -122,15 +122,15 @@ LinkState MotorPlanner::flat(const MotionPoint& link, double snap_rad_s4) const 
   const double change_Nm_s2 = joint.link_inertia_kgm2 * snap_rad_s4 + slope_Nm_rad * link.acceleration_rad_s2;
   const double compliance = wind_up_.compliance_rad_Nm(transmitted_Nm);
   const double speed_rad_s = compliance * (rate_Nm_s - joint.damping_Nms_rad * compliance * change_Nm_s2);
-  // The smooth wind-up is for what moves; what is held is the spring's own.
+  // Only the motion needs the smooth wind-up; gravity's wind-up follows the spring itself.
   const double angle_rad = wind_up_.angle_rad(transmitted_Nm - joint.damping_Nms_rad * speed_rad_s) +
                            joint.spring.angle_rad(held_Nm) - wind_up_.angle_rad(held_Nm);
   return {link.position_rad, link.velocity_rad_s, link.position_rad + angle_rad,
           link.velocity_rad_s + speed_rad_s};
 }
 
-// The model's period, in which the motion wants `wanted_Nm`, and at its end to be at `wanted_end`: what is off there without a regulator,
-// of the last period and of this one.
+// Advances the model by a period. The motion wants `wanted_Nm` and the state `wanted_end` at the period's end. The regulator corrects the
+// error that this torque alone would leave there, from the last period and from this one.
 void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
                           double taken_Nm) noexcept {
   if (rigid()) {
@@ -152,7 +152,7 @@ void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const T
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
-// The motion has ended: once the model is where that was, it stands still.
+// The motion has ended: once the model is within the tolerance of its end, it stands still.
 void MotorPlanner::settle() noexcept {
   const double slow_rad_s = 0.5 * config_.tolerance_rad / config_.period_s;
   const bool there =
@@ -181,7 +181,7 @@ MotorPlan MotorPlanner::plan() noexcept {
   return plan;
 }
 
-// The planned motion's end of the period that begins now is known, and with it the joint's.
+// The planned sample gives the end of the period that begins now, and so the state of the joint there.
 MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possible,
                              double taken_Nm) noexcept {
   const double h = config_.period_s;
@@ -194,7 +194,7 @@ MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possib
   const MotionPoint link = second_.step(first_.step(end));
   const LinkState wanted_end = flat(link, (link.jerk_rad_s3 - jerk_rad_s3_) / h);
   jerk_rad_s3_ = link.jerk_rad_s3;
-  // What of the motion acts in steps moves the joint as far as what is planned: the change of momentum over the period.
+  // A torque that is held over the period must change the momentum as much as the planned motion does.
   const double momentum_Nms =
       joint.motor_inertia_kgm2 * (wanted_end.motor_velocity_rad_s - wanted_.motor_velocity_rad_s) +
       joint.link_inertia_kgm2 * (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s);
@@ -205,8 +205,8 @@ MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possib
   follow(momentum_Nms / h + gravity_Nm, wanted_end, possible, taken_Nm);
   const double wanted_rad_s2 = (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s) / h;
   wanted_ = wanted_end;
-  // A regulator at its torque limit can excite the spring in a limit cycle: where it needs more torque than the motion the model gives way;
-  // a motion that has ended needs none.
+  // A regulator at its torque limit can excite the spring in a limit cycle. The model yields where the regulator needs more torque than the
+  // motion, or where the motion has ended and needs none.
   if (config_.gives_way && exhausted_ && (ended || regulates_))
     next_ = moved(next_, moved(wanted_, next_, -1.0), kYield);
   if (ended) settle();

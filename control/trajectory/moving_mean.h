@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mean of a motion over the last periods: a box that smooths it and takes its own width longer. Real-time safe.
+// The mean of a motion over the last periods. It smooths the motion and extends it by the mean's width. Real-time safe.
 // Source: Singer and Seering (1990), shaping by convolution.
 //
 //   y(t) = 1/w  integral of x(s) over s = t - w .. t,      w: whole periods
 //   y'   = (x(t) - x(t - w)) / w
 //   y''  = (x'(t) - x'(t - w)) / w
 //
-// Exact for a motion that is a cubic between samples: constant acceleration through one box, and through two in a row.
+// Exact for a motion that is cubic between samples. Constant acceleration is therefore exact through one mean, and through two in a row.
 #pragma once
 
 #include <array>
@@ -27,27 +27,27 @@ struct MotionPoint {
 
 class MovingMean {
  public:
-  /// `periods` in 0..kMaxMeanPeriods, 0: the motion itself; `period_s` > 0.
+  /// `periods` in 0..kMaxMeanPeriods, 0: leaves the motion as it is; `period_s` > 0.
   MovingMean(int periods, double period_s) noexcept : periods_(periods), period_s_(period_s) {
     assert(periods >= 0 && periods <= kMaxMeanPeriods);
   }
 
-  /// It has moved at this velocity for as long as it remembers, and is there now.
+  /// Assumes a past motion at this velocity that is now at `position_rad`.
   void reset(double position_rad, double velocity_rad_s = 0.0) noexcept {
     for (std::size_t i = 0; i < samples_.size(); ++i)
       samples_[i] = {position_rad - static_cast<double>(samples_.size() - 1 - i) * period_s_ * velocity_rad_s,
                      velocity_rad_s, 0.0, 0.0};
     newest_ = samples_.size() - 1;
   }
-  /// By how much it is later than the motion.
+  /// Delay of the mean behind the motion.
   double lag_s() const noexcept { return 0.5 * periods_ * period_s_; }
 
-  /// The motion's next sample; its jerk is not used. Returns the mean's.
+  /// Takes the motion's next sample, whose jerk is not used. Returns the mean.
   MotionPoint step(const MotionPoint& sample) noexcept {
     newest_ = (newest_ + 1) % samples_.size();
     samples_[newest_] = sample;
     if (periods_ == 0) return {sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2, 0.0};
-    // Relative to the newest position: a motion that has ended leaves no rounding.
+    // Relative to the newest position: after the end of a motion no rounding remains.
     double sum_rad = 0.0;
     for (int i = 0; i < periods_; ++i) {
       const MotionPoint& after = ago(i);

@@ -12,7 +12,7 @@ namespace {
 
 RateRoom room_at(const Reference& point, double rate, const MotionLimits& limits) noexcept {
   const double speed_rad_s = std::abs(point.velocity_rad_s);
-  // So slow a joint does not matter to the rate.
+  // A joint this slow does not limit the rate.
   if (speed_rad_s <= kAtBound * limits.velocity_rad_s) return PathClock::kMostRoom;
   const double along_rad_s2 =
       std::copysign(1.0, point.velocity_rad_s) * point.acceleration_rad_s2 * rate * rate;

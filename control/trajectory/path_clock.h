@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time along a path: it runs with the clock, or slower while the path is paused or resumed, so that the joints stay on the path.
+// The time along a path. It runs with the clock, or slower while the path pauses or resumes, so that the joints stay on the path.
 // Real-time safe; time is counted in seconds of the path.
 //
-// With the rate r of the path's time s, what a joint does is
+// With the rate r of the path's time s, a joint moves with
 //
 //   v = v(s) r
 //   a = a(s) r^2 + v(s) r'
 //
-// so that a limit of the joint's acceleration bounds r'. While the path keeps the limits, r' = 0 does for every r up to 1: the rate can always
-// stay, and a joint that is just using all of its deceleration is on its way to rest by itself.
+// so that its acceleration limit bounds r'. While the path keeps the limits, r' = 0 keeps them for every r up to 1: the rate can always
+// stay constant. A joint that uses all of its deceleration comes to rest without a change of the rate.
 #pragma once
 
 #include <array>
@@ -23,39 +23,39 @@ struct RateRoom {
   double falling_1_s = 0.0;
   double rising_1_s = 0.0;
 
-  /// Of two joints on one path.
+  /// The room that two joints on one path leave together.
   RateRoom both(const RateRoom& other) const noexcept;
 };
 
-/// What a joint with these limits leaves that is at `here` now and at `next` at the end of the period, while the time goes at `rate`.
+/// Room that a joint with these limits leaves. It is at `here` now and at `next` at the end of the period, with time at `rate`.
 RateRoom rate_room(const Reference& here, const Reference& next, double rate,
                    const MotionLimits& limits) noexcept;
 
-/// Where a path's time is, and how it goes; by default a path that has not begun.
+/// A time of the path, and its rate; by default those of a path that has not begun.
 struct PathTime {
   double time_s = 0.0;
   double rate = 0.0;
   double rate_change_1_s = 0.0;  ///< over the last period
 };
 
-/// Begins at 0, at the full rate: a path begins at rest.
+/// Begins at 0 and at the full rate, since a path begins at rest.
 class PathClock {
  public:
-  /// None allows more than this one: from rest to the full rate and back takes at least 0.1 s. What the accelerations allow of slow paths
-  /// would be a jerk.
+  /// Largest room: between standstill and full rate the time takes at least 0.1 s. Slow paths would allow larger changes of the rate, but
+  /// those would be a jerk.
   static constexpr RateRoom kMostRoom{10.0, 10.0};
 
   void run() noexcept { wish_ = Wish::kRun; }
   void rest() noexcept { wish_ = Wish::kRest; }
-  /// One period later.
+  /// Advances by one period.
   void advance(double period_s, const RateRoom& room) noexcept;
 
   double time_s() const noexcept { return time_s_; }
   double rate() const noexcept { return rate_; }
   PathTime now() const noexcept { return {time_s_, rate_, change_1_s_}; }
-  /// Whether the rate stays in the next period, whatever the room.
+  /// Whether the rate stays constant in the next period, for any room.
   bool steady() const noexcept { return rate_ == wanted(); }
-  /// Whether it rests or is to come to rest.
+  /// Whether the path rests or is coming to rest.
   bool is_to_rest() const noexcept { return wish_ == Wish::kRest; }
 
  private:
@@ -68,14 +68,14 @@ class PathClock {
   double change_1_s_ = 0.0;
 };
 
-/// A path's time in the last periods.
+/// A path's time in each of the last periods.
 class PathTimes {
  public:
   static constexpr std::size_t kPeriods = 256;
 
-  /// One period later it is `now`.
+  /// Records `now`, one period after the last record.
   void note(const PathTime& now) noexcept;
-  /// `periods` before the last one, in [0, kPeriods - 2]; between two periods the mean of both. Before all of them the path has not begun.
+  /// The time `periods` before the last record, in [0, kPeriods - 2]; linear between records. Before them the path has not begun.
   PathTime ago(double periods) const noexcept;
 
  private:
@@ -83,7 +83,7 @@ class PathTimes {
   std::size_t last_ = 0;
 };
 
-/// What the joint does at `point` of its path while the time goes as `time` says.
+/// Motion of the joint at `point` of its path, with the rate of `time` and its change.
 Reference in_path_time(const Reference& point, const PathTime& time) noexcept;
 
 }  // namespace strainwave

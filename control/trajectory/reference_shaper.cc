@@ -11,11 +11,11 @@
 namespace strainwave {
 
 namespace {
-// What thousands of samples may add up to; far below any encoder's count.
+// Rounding that thousands of samples may accumulate; far below any encoder's count.
 constexpr double kPositionRounding_rad = 1e-12;
-// What a target that accelerates leaves at least of a limit, to come up with it or to brake.
+// Least share of a limit for approaching or braking that an accelerating target leaves.
 constexpr double kLeastLeft = 0.2;
-// Farther than what the acceleration covers in this time from rest, a target that moves is far away.
+// A moving target is far away beyond the distance that the acceleration covers from rest in this time.
 constexpr double kFar_s = 0.1;
 }  // namespace
 
@@ -31,7 +31,7 @@ void ReferenceShaper::set_target(double position_rad) noexcept {
   stopping_ = false;
 }
 
-// Towards zero by at most one sample's deceleration.
+// Reduces the speed by at most one sample's deceleration.
 double ReferenceShaper::brake_to_rest(double velocity_rad_s) const noexcept {
   const double speed = std::max(0.0, std::abs(velocity_rad_s) - period_s_ * limits_.deceleration_rad_s2);
   return std::copysign(speed, velocity_rad_s);
@@ -49,7 +49,7 @@ double ReferenceShaper::largest_stoppable_velocity(double distance_rad,
   return speed_step * (whole + beyond / (whole + 1.0));
 }
 
-// From which the joint can stop on its target. It may be beyond what the limits allow.
+// Velocity from which the joint can stop on its target. It may exceed the limits.
 double ReferenceShaper::wanted_velocity_rad_s() const noexcept {
   const double to_target_rad = target_rad_ - position_rad_;
   const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
@@ -57,7 +57,7 @@ double ReferenceShaper::wanted_velocity_rad_s() const noexcept {
   return direction * largest_stoppable_velocity(left_rad, limits_.deceleration_rad_s2);
 }
 
-// What the limits allow of a wanted velocity: accelerations, the range, the speed, in the order in which they give way.
+// Limits the wanted velocity. The acceleration limits take precedence over range and speed.
 double ReferenceShaper::possible_velocity_rad_s(double wanted_rad_s,
                                                 const PositionRange& range) const noexcept {
   const double decelerating = period_s_ * limits_.deceleration_rad_s2;
@@ -88,10 +88,10 @@ Reference ReferenceShaper::advance_to(double velocity_rad_s) noexcept {
   return reference;
 }
 
-// Of a target that is far away the own acceleration is not gone along with: one that brakes would brake who has yet to come up with it.
-// How fast the way may be, possible_velocity_rad_s() says.
+// Relative velocity towards the target. The acceleration of a far target is ignored: a braking target would brake a joint that has yet to
+// reach it. possible_velocity_rad_s() applies the limits.
 double ReferenceShaper::nearing_rad_s(const MovingTarget& target) const noexcept {
-  // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
+  // Distance to the point from which a target, at the mean of its two velocities, would reach its next position.
   const double to_target_rad = target.next_position_rad - position_rad_ -
                                0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
   const double relative_rad_s = velocity_rad_s_ - target.velocity_rad_s;
@@ -120,7 +120,7 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
 Reference ReferenceShaper::step() noexcept {
   double velocity =
       stopping_ ? brake_to_rest(velocity_rad_s_) : possible_velocity_rad_s(wanted_velocity_rad_s(), {});
-  // So far below one sample's deceleration a speed is the rounding of a motion that has ended.
+  // A speed this far below one sample's deceleration is the rounding of a motion that has ended.
   if (std::abs(velocity) <= kAtBound * period_s_ * limits_.deceleration_rad_s2) velocity = 0.0;
   const Reference reference = advance_to(velocity);
   if (velocity != 0.0) return reference;

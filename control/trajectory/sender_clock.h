@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The instant at which a message was sent, on our clock: from the sender's clock, which runs at about our rate, and the shortest recent
-// transport delay. Delayed and lost messages change nothing. Real-time safe.
+// The instant at which a message was sent, on our clock, from the sender's clock and the usual transport delay. The sender's clock must run
+// at about our rate. Delayed and lost messages do not change the result. Real-time safe.
 //
-//   sent on our clock = sent on the sender's + offset
-//   offset   mean of arrival - sent over forty messages, without those that are later than it by more than 6 ms. A message that is
-//            earlier by more than that begins the mean anew; so do late messages alone for 0.12 s
+//   sent on our clock = sent on the sender's clock + offset
+//   offset   mean of arrival - sent over forty messages. Messages that are late by more than 6 ms do not count. A message that is early by
+//            more than that restarts the mean; so do late messages alone for 0.12 s
 //   a clock that was set, or stands still: the message counts as sent at its arrival less the usual delay
 #pragma once
 
@@ -20,9 +20,9 @@ class SenderClock {
   /// `period_s` > 0: the unit of our clock.
   explicit SenderClock(double period_s) noexcept : period_us_(period_s * 1e6) {}
 
-  /// The next message is the first.
+  /// The next message counts as the first.
   void forget() noexcept { messages_ = 0; }
-  /// A message of `sent_us` > 0 on the sender's clock comes in this period of ours.
+  /// Takes a message that was sent at `sent_us` > 0 of the sender's clock and arrives in `period` of ours.
   void take(std::int64_t sent_us, double period) noexcept {
     if (messages_ == 0) {
       last_us_ = sent_us;
@@ -48,9 +48,9 @@ class SenderClock {
     offset_ += late / messages_;
     held_up_ = false;
   }
-  /// Periods from the first message's sending to the last one's; rises with the sender's clock, whatever is learned of the way.
+  /// Periods between the sending of the first and of the last message. Changes of the offset do not affect it.
   double sent() const noexcept { return sent_; }
-  /// sent() + offset(): the period of ours in which one that takes as long as most do would have come.
+  /// sent() + offset(): the period of ours in which a message with the usual delay would have arrived.
   double offset() const noexcept { return offset_; }
 
  private:
@@ -68,8 +68,8 @@ class SenderClock {
   std::int64_t last_us_ = 0;
   double sent_ = 0.0;
   double offset_ = 0.0;
-  int messages_ = 0;      ///< that offset_ is the mean of, at most
-  bool held_up_ = false;  ///< the last, and all since ...
+  int messages_ = 0;      ///< in the mean offset_, at most kAveraged
+  bool held_up_ = false;  ///< the last message was late, and all since ...
   double since_ = 0.0;    ///< ... this period
 };
 

@@ -10,33 +10,33 @@ namespace strainwave {
 
 namespace {
 
-// A segment of the motion is no shorter: what a sample's time is off by would make jerks.
+// Least duration of a segment of the motion: in a shorter one, errors of a sample's time would cause jerk.
 constexpr double kSegment_s = 0.02;
-// A gap is caught up with in this time at most, and samples farther apart say nothing of each other's derivatives.
+// Longest time for catching up after a gap. Samples farther apart do not determine derivatives of each other.
 constexpr double kLongest_s = 0.2;
-// Neighbours of a derivative lie at least this far apart: rounding is divided by it.
+// Least time between neighbours for a derivative, since it divides their rounding.
 constexpr double kApart_s = 0.01;
-constexpr int kBefore = 8;  ///< neighbours, and ...
-constexpr int kAfter = 2;   ///< ... after the sample
-// A jerk that changes the acceleration by less than this share of the limit in an interval is the motion's own, and not the positions' noise.
+constexpr int kBefore = 8;  ///< neighbours before the sample
+constexpr int kAfter = 2;   ///< neighbours after it
+// A jerk that changes the acceleration by less than this share of the limit in an interval is motion; a larger one is noise of the positions.
 constexpr double kSmooth = 0.1;
-// So long a smooth motion is carried on with its jerk: intervals, and at least a time.
+// How long the jerk of a smooth motion is extrapolated: in intervals, and at least in seconds.
 constexpr double kCarriedIntervals = 2.5;
 constexpr double kCarried_s = 0.06;
-// Beyond this multiple of the joint's limits a sample is no part of a motion.
+// A sample beyond this multiple of the joint's limits belongs to no motion.
 constexpr double kNewPlace = 2.0;
-// A velocity contradicts where it misses what the positions show by this share of both, and by counts.
+// A velocity contradicts if it differs from the positions by more than this share of the mean of both, plus some counts.
 constexpr double kContradicts = 0.5;
 constexpr double kContradictsCounts = 3.0;
-constexpr double kContradicts_s = 0.025;  // longer than a burst of samples that were held up
-// A motion that ends is at its place: far below an encoder's count, and what the torque shows of it.
+constexpr double kContradicts_s = 0.025;  // longer than a burst of delayed samples
+// A motion this close to its end has arrived: far below an encoder's count, and without effect on the torque.
 constexpr double kAtRest_rad = 1e-9;
 constexpr double kAtRest_rad_s = 1e-6;
-// Each the derivative of the one before.
+// Each is the derivative of the one before.
 constexpr std::array kParts{&MotionPoint::position_rad, &MotionPoint::velocity_rad_s,
                             &MotionPoint::acceleration_rad_s2, &MotionPoint::jerk_rad_s3};
 
-// Planned anew again and again the motion would come near a place, but never there.
+// Replanning again and again would bring the motion near its place, but never to it.
 bool has_come_to(const MotionPoint& place, const MotionPoint& now) noexcept {
   return place.velocity_rad_s == 0.0 && place.acceleration_rad_s2 == 0.0 &&
          std::abs(now.position_rad - place.position_rad) <= kAtRest_rad &&
@@ -74,7 +74,7 @@ std::size_t StreamBuffer::first_from(double at) const noexcept {
   return low;
 }
 
-// The newest order counts: it takes the place of all that are for later.
+// A new sample replaces all samples that are for its instant or later.
 void StreamBuffer::insert(Knot knot) noexcept {
   while (count_ > 0 && last().at >= knot.at) --count_;
   if (count_ > 0) {
@@ -144,13 +144,13 @@ SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& re
   const bool late = knot.at < play() + left_out_;
   insert(knot);
   lead_on();
-  // What was held up and then sent all at once contradicts, too, but not for long.
+  // A burst of delayed samples also contradicts, but not for long.
   const bool for_long = seconds(last().at - contradicts_from_) >= kContradicts_s;
   if (last().contradicts && for_long) return SampleFate::kVelocitiesContradict;
   return late ? SampleFate::kLate : SampleFate::kInTime;
 }
 
-// From here to the first sample that is a segment ahead, or where the motion of the last will be by then.
+// Plans from here to the first sample that is a segment ahead, or to where the motion of the last sample will be by then.
 void StreamBuffer::lead_on() noexcept {
   const double now = play();
   const double missed_s = std::clamp(seconds(now - to_.at), kSegment_s, kLongest_s);
@@ -165,7 +165,7 @@ void StreamBuffer::lead_on() noexcept {
   to_.state = carried(to_.at);
 }
 
-// A position that came three times, over a segment's time at least, is a place and not a part of the motion before it.
+// A position that came three times, over at least the time of a segment, is a place, and does not belong to the motion before it.
 bool StreamBuffer::stands(std::size_t i) const noexcept {
   const Knot& one = knot(i);
   if (one.derivatives > 0) return false;
@@ -192,7 +192,7 @@ void StreamBuffer::fit_neighbours(std::size_t i, LocalPolynomial& fit) const noe
   for (std::size_t k = i; k > 0 && added < kBefore && !knot(k).new_place; --k) added += add(knot(k - 1));
 }
 
-// The sample with the derivatives that were not sent.
+// Completes the sample with the derivatives that were not sent.
 StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
   Knot one = knot(i);
   if (stands(i)) return one;
@@ -208,7 +208,7 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
   return one;
 }
 
-// The motion of the anchor: with its acceleration for some time, then with the velocity of that.
+// Extrapolates from the anchor: with its acceleration for some time, then at constant velocity.
 MotionPoint StreamBuffer::carried(double at) const noexcept {
   const MotionPoint& s = anchor_.state;
   const double interval_s = seconds(interval_);
@@ -242,7 +242,7 @@ MotionPoint StreamBuffer::between(double at) const noexcept {
           (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / (T * T), 0.0};
 }
 
-// Along a straight line from sample to sample; the last one's stays.
+// Linear between samples; the last load stays.
 StreamLoad StreamBuffer::load_at(double at) const noexcept {
   const std::size_t next = first_from(at);
   if (next == count_) return count_ > 0 ? last().load : state_.load;

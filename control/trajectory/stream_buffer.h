@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stream of setpoints as a motion: where the joint is to be in each period. Samples wait, sorted by the instant that they are for, and are
+// Turns a stream of setpoints into a motion: the target of the joint in each period. Samples wait in the order of their instants and are
 // played out. Real-time safe; time is counted in periods. Joint side, SI.
 //
-//   instant       the cycle that a sample is for; or when it was sent, on our clock (control/trajectory/sender_clock.h), and the play-out
-//                 delay, which covers what the network's jitter and the sender's interval take
-//   motion        from where the target is now to the first sample that is 20 ms ahead, by a quintic (Hermite): position, velocity and
-//                 acceleration have no step, whatever arrives. Planned anew with every sample
-//   derivatives   not sent: of the polynomial through the sample that fits its neighbours best, before and after it
-//   no sample     the motion goes on with its acceleration for some intervals, then with its velocity, `bridge_s` or two
-//                 intervals, whichever is longer, and half an interval; 0.2 s at most. Then the stream has ended: the joint is to come to
-//                 rest. A target that stands still stays where it is
-//   a gap         is caught up with in the time that was missed, 0.2 s at most
-//   new place     a sample that needs twice the joint's speed or acceleration is no part of a motion: the target is there, at rest
-//   contradiction a velocity that is not that of the positions is not used; where it goes on, the stream is to end
+//   instant       the cycle that a sample is for; or its time of sending on our clock (control/trajectory/sender_clock.h) plus the play-out
+//                 delay, which covers the network's jitter and the sender's interval
+//   motion        a quintic Hermite segment from the present target to the first sample at least 20 ms ahead. Position, velocity and
+//                 acceleration have no step, whatever arrives. Every sample replans it
+//   derivatives   missing ones come from the polynomial through the sample that fits its neighbours, before and after it, best
+//   no sample     the motion continues with its acceleration for some intervals, then with its velocity. After `bridge_s` or two intervals,
+//                 whichever is longer, and half an interval, at most 0.2 s, the stream has ended: the joint is to come to rest. A target
+//                 at standstill stays where it is
+//   a gap         is made up for within the time that was missed, at most 0.2 s
+//   new place     a sample that needs twice the joint's speed or acceleration belongs to no motion: the target is there, at rest
+//   contradiction a velocity that contradicts the positions is not used; if contradictions last, the stream is to end
 #pragma once
 
 #include <array>
@@ -31,43 +31,43 @@ class LocalPolynomial;
 /// `period_s` > 0, `count_rad` > 0, the rest >= 0.
 struct StreamConfig {
   double period_s = 0.001;
-  double bridge_s = 0.05;   ///< without samples
-  double delay_s = 0.03;    ///< of samples that say when they were sent
-  double count_rad = 1e-6;  ///< what an encoder cannot tell
+  double bridge_s = 0.05;   ///< time without samples
+  double delay_s = 0.03;    ///< play-out delay of samples with their time of sending
+  double count_rad = 1e-6;  ///< resolution of the encoder
 };
 
 class StreamBuffer {
  public:
   explicit StreamBuffer(const StreamConfig& config) noexcept : config_(config), sender_(config.period_s) {}
 
-  /// A stream begins where the joint is to be now; from now on the target is ahead of its samples by `lead_periods` >= 0.
+  /// Begins a stream at the present target. From now on the target leads its samples by `lead_periods` >= 0.
   void begin(double position_rad, double velocity_rad_s, double lead_periods,
              const StreamLoad& load) noexcept;
-  /// The stream that has ended goes on with the next sample, from here.
+  /// A stream that has ended continues from here with its next sample.
   void resume(double position_rad, double velocity_rad_s, const StreamLoad& load) noexcept;
   double lead_periods() const noexcept { return lead_; }
-  /// After a wait through which the joint was not led: the target is where the motion that it was led on is now.
+  /// After a wait in which the joint was not led: moves the target to the present point of its motion.
   void catch_up() noexcept {
     if (count_ > 0) move_to(play());
   }
-  /// Periods go by in which no step() is taken.
+  /// Lets periods pass without step().
   void wait(std::int64_t periods) noexcept {
     now_ += static_cast<double>(periods);
     left_out_ = 0.0;
   }
-  /// Samples that come now come so many periods after the one that the next step() begins: the loop left them out.
+  /// Samples that arrive now arrive `periods` after the period of the next step(), since the loop skipped those.
   void leave_out(std::int64_t periods) noexcept { left_out_ = static_cast<double>(periods); }
-  /// `reach`: what the joint can do.
+  /// Takes a sample; `reach`: limits of the joint.
   SampleFate take(const StreamSample& sample, const MotionLimits& reach) noexcept;
-  /// The target of the period that begins now; time goes on by one period.
+  /// The target of the period that begins now; advances time by one period.
   MovingTarget step() noexcept;
-  /// No sample came while the target moved. Until begin() or resume().
+  /// Whether samples stopped while the target moved. Until begin() or resume().
   bool ended() const noexcept { return ended_; }
-  /// Velocity of the last two samples over the rate of their positions: 1 where they agree; 0 where the positions stand.
+  /// Velocity of the last two samples relative to the rate of their positions: 1 if they agree, 0 if the positions stand still.
   double velocity_ratio() const noexcept;
 
  private:
-  static constexpr std::size_t kSamples = 1024;  ///< that may wait: a second of 1 kHz
+  static constexpr std::size_t kSamples = 1024;  ///< that may wait: a second at 1 kHz
 
   struct Way {
     double shown_rad = 0.0;  ///< by the positions of two samples
@@ -78,9 +78,9 @@ class StreamBuffer {
     MotionPoint state;
     StreamLoad load{};
     int derivatives = 2;
-    bool new_place = false;    ///< samples before it are of another motion
-    bool contradicts = false;  ///< its velocity is not that of the positions
-    /// How many of its derivatives are used.
+    bool new_place = false;    ///< samples before it belong to another motion
+    bool contradicts = false;  ///< its velocity contradicts the positions
+    /// Number of its derivatives that are used.
     std::size_t believed() const noexcept { return contradicts ? 0 : static_cast<std::size_t>(derivatives); }
     Way way_since(const Knot& before, double period_s) const noexcept;
     bool is_contradicted_by(const Knot& before, const StreamConfig& config) const noexcept;
@@ -104,22 +104,22 @@ class StreamBuffer {
   void move_to(double at) noexcept;
 
   StreamConfig config_;
-  MotionLimits reach_;  ///< of the joint, its accelerations either way
+  MotionLimits reach_;  ///< limits of the joint, with one acceleration for both ways
   SenderClock sender_;
   std::array<Knot, kSamples> knots_{};
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   double lead_ = 0.0;
   double now_ = 0.0;       ///< periods since construction
-  double left_out_ = 0.0;  ///< periods after now_ that have gone by
-  double origin_ = 0.0;    ///< of the samples' time, in now_'s
+  double left_out_ = 0.0;  ///< skipped periods after now_
+  double origin_ = 0.0;    ///< of the samples' time, in now_'s time
   double interval_ = 10.0;
-  double caught_up_at_ = 0.0;      ///< in now_'s periods, after a gap
+  double caught_up_at_ = 0.0;      ///< end of catching up after a gap, in now_'s time
   Knot state_;                     ///< now
-  Knot from_;                      ///< the quintic's begin ...
+  Knot from_;                      ///< the quintic's beginning ...
   Knot to_;                        ///< ... and end, on the motion of ...
   Knot anchor_;                    ///< ... this sample
-  double contradicts_from_ = 0.0;  ///< instant of the first of them
+  double contradicts_from_ = 0.0;  ///< instant of the first contradiction in a row
   bool ended_ = false;
 };
 

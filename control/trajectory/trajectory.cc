@@ -10,9 +10,9 @@ namespace strainwave {
 
 namespace {
 
-// A reading that flickers does so by one count, and by rounding.
+// A flickering reading changes by one count, and by rounding.
 constexpr double kFlickerCounts = 1.5;
-// Farther than this from the stream a reference is off it: a tenth of a count of a fine encoder.
+// A reference farther than this from the stream is off it: a tenth of a count of a fine encoder.
 constexpr double kOnStream_rad = 1e-6;
 
 }  // namespace
@@ -55,7 +55,7 @@ void Trajectory::stop() noexcept {
   shaper_.stop();
 }
 
-// Through periods that were left out step() goes as if it had been called; not where the joint's motion is unknown.
+// For skipped periods step() is still called, except after a gap that makes the motion of the joint unknown.
 void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
   if (elapsed_periods <= kMaxElapsedPeriods) return stream_.leave_out(elapsed_periods - 1);
   stream_.wait(elapsed_periods - 1);
@@ -66,13 +66,13 @@ bool Trajectory::off_stream() const noexcept {
   return streamed() && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
 }
 
-// A stream that stands may flicker by an encoder's count: a reference that rests does not follow it.
+// A stream at standstill may flicker by an encoder's count. A reference at rest does not follow that.
 bool Trajectory::flickers(const MovingTarget& target) const noexcept {
   return shaper_.velocity_rad_s() == 0.0 &&
          std::abs(target.next_position_rad - shaper_.position_rad()) <= kFlickerCounts * config_.count_rad;
 }
 
-// Along the cubic to the path's next knot; where that is over the path rests at it.
+// Follows the cubic to the path's next knot. If no further knot arrives, the path rests there.
 MovingTarget Trajectory::next_on_path() noexcept {
   const PathKnot now{0.0, on_path_.position_rad, on_path_.velocity_rad_s};
   const PathKnot& to = path_to_;
