@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes what a configuration names: buses, drives with their joints' settings, and what admission must know of
-// a joint. Not real-time.
+// Builds the parts that a configuration names: buses, drives with their joints' settings, and the joint data that
+// admission needs. Not real-time.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace strainwave {
 
-/// The buses, and of each joint the drive, its settings and its flight recorder, all in the
-/// configuration's order. Throws InputError.
+/// Returns the buses, and for each joint its drive, settings and flight recorder, in the configuration's order.
+/// Throws InputError.
 LoopParts assemble_loop(const DaemonConfig& config);
 
-/// One bus, with every drive on it set up. Throws InputError.
+/// Opens one bus and sets up every drive on it. Throws InputError.
 std::unique_ptr<Fieldbus> assemble_bus(const BusConfig& bus);
 
-/// What a table for `joint` is judged by.
+/// Returns the properties of `joint` against which a gain table is judged.
 ExpectedJoint expected_joint(const JointConfig& joint);
-/// What admission must know of each joint.
+/// Returns the data of each joint that admission needs.
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config);
 
 }  // namespace strainwave

@@ -8,7 +8,7 @@ namespace strainwave {
 
 namespace {
 
-/// Null when the joint's drive is none of CiA 402.
+/// Returns null when the joint has no CiA 402 drive.
 const cia402::DriveConfig* cia402_drive(const DaemonConfig& config, const JointConfig& joint) {
   const auto* const place = std::get_if<DriveOnBus>(&joint.drive);
   return place == nullptr ? nullptr

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The drives of a configuration, before the loop: whose they are, and whether start-up would accept them. Not real-time.
+// Checks the drives of a configuration before the loop: is another daemon using them, would start-up accept them? Not real-time.
 #pragma once
 
 #include <functional>
@@ -13,22 +13,22 @@
 
 namespace strainwave {
 
-/// Throws InputError when a drive on the bus would be refused.
+/// Opens a bus. Throws InputError when start-up would refuse a drive on it.
 using BusOpener = std::function<std::unique_ptr<Fieldbus>(const BusConfig&)>;
 
-/// Takes every drive for this process. Throws InputError when another daemon has one.
+/// Locks every drive for this process. Throws InputError when another daemon has one.
 std::vector<InstanceLock> lock_drives(const DaemonConfig& config);
 
-/// Does to the drives on buses all that start-up does, enables none, and leaves them. Writes what it found or
-/// what is wrong to `out`; returns whether start-up would accept all. Throws InputError when another daemon
-/// has one of them.
+/// Runs the complete start-up of the drives on buses, but enables none, and closes the buses. Writes findings and
+/// errors to `out`; returns whether start-up would accept all drives. Throws InputError when another daemon has one
+/// of them.
 bool check_drives(const DaemonConfig& config, std::ostream& out, const BusOpener& open = assemble_bus);
 
-/// Shows every digital line of the joints, its level and who holds it, without touching outputs. Returns whether each can be used.
+/// Lists every digital line of the joints with its level and its holder; touches no output. Returns whether each can be used.
 bool check_lines(const DaemonConfig& config, std::ostream& out);
 
-/// Runs start-up of every joint that has such a drive against the drive's electronic data sheet; touches no hardware. Returns
-/// whether all would be accepted; what is missing is in the text.
+/// Runs start-up of every CiA 402 drive against an electronic data sheet; touches no hardware. Writes missing objects to `out`.
+/// Returns whether there is such a drive and start-up would accept all of them.
 bool check_data_sheet(const DaemonConfig& config, const std::filesystem::path& file, std::ostream& out);
 
 }  // namespace strainwave

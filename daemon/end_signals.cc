@@ -15,13 +15,13 @@ namespace strainwave {
 
 namespace {
 
-// Every signal that somebody or something may send and that would kill the core, in motion: they all end it in order. SIGKILL and
-// SIGSTOP nobody can refuse.
+// By default, each of these signals would kill the daemon while joints move. Here each ends it in order. SIGKILL and SIGSTOP cannot be
+// blocked.
 constexpr std::array kEndSignals{SIGTERM, SIGINT,    SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2,   SIGALRM,
                                  SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGXCPU, SIGSTKFLT, SIGTRAP};
 
-// Those that say that the program is broken come here only when somebody sent them: what the kernel raises for an instruction, and
-// abort(), which lets its own through, kill though they are blocked. A sanitizer reports by them.
+// Signals of a program's defect arrive here only if a process sends them. Those that the kernel raises for an instruction still kill,
+// although blocked, and so does abort(). A build with a sanitizer leaves them out, because the sanitizer reports by them.
 constexpr std::array kSignalsOfDefects{SIGABRT, SIGSYS, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
 }  // namespace
@@ -34,7 +34,7 @@ EndSignals::EndSignals() {
   for (const int signal : kSignalsOfDefects)
     if (!kSanitized) ::sigaddset(&signals, signal);
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) ::sigaddset(&signals, signal);
-  // A terminal must not be able to make the loop stand still.
+  // A terminal must not be able to suspend the loop.
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   descriptor_ = UniqueFd(::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK));

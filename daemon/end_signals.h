@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The signals that end the daemon in order, and the end of a child. Not real-time.
+// Receives the signals that end the daemon in order, and the signal that a child process has ended. Not real-time.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@ namespace strainwave {
 
 class EndSignals {
  public:
-  /// Make it before any thread starts: from here on all of them arrive here and nowhere else. Throws std::system_error.
+  /// Create it before any thread starts, so that these signals arrive here and nowhere else. Throws std::system_error.
   EndSignals();
 
-  /// Readable when a signal is there, or a child has ended.
+  /// Becomes readable when a signal has arrived, or a child has ended.
   int descriptor() const noexcept { return descriptor_.get(); }
-  /// Takes all that have come; the first that asks for the end, if one does.
+  /// Takes all signals that have arrived. Returns the first that asks for the end, if there is one.
   std::optional<int> take() noexcept;
 
  private:

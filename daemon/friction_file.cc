@@ -8,7 +8,7 @@ namespace strainwave {
 
 namespace {
 
-/// Of a joint: absolute zero to where no lubricant is one.
+/// Possible temperatures of a joint: from absolute zero to where no lubricant works.
 constexpr double kColdest_C = -273.15;
 constexpr double kHottest_C = 1000.0;
 

@@ -30,7 +30,7 @@ void set_aside(const std::filesystem::path& path) {
     spdlog::warn("{}: set aside as {}", path.string(), aside.string());
 }
 
-/// What the file of a joint says, nothing where it says nothing of use.
+/// Returns the contents of a joint's file, or nothing if it is missing, damaged, or for another joint or other rules.
 std::optional<KeptFriction> read_kept(const std::filesystem::path& path, const std::string& joint,
                                       std::int64_t friction_rules_id) {
   std::error_code error;

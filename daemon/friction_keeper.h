@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps what joints learn of their friction in files, over restarts of the daemon, and logs where it differs from a table. The supervisor's;
-// files are written in a thread of their own, because a slow disk must not keep a stop waiting. Not real-time.
+// Keeps the learned friction of all joints in files over restarts of the daemon, and logs when it differs from a table. Part of the
+// supervisor. A thread of its own writes the files, because a slow disk must not delay a stop. Not real-time.
 #pragma once
 
 #include <condition_variable>
@@ -21,7 +21,7 @@ namespace strainwave {
 
 class FrictionKeeper {
  public:
-  /// What a joint learns is written this often at most.
+  /// Shortest interval between two writes of a joint's friction while the daemon runs.
   static constexpr std::int64_t kEvery_ns = 60'000'000'000;
 
   /// With an empty `directory` nothing is kept, and the log says so.
@@ -30,14 +30,14 @@ class FrictionKeeper {
   FrictionKeeper(const FrictionKeeper&) = delete;
   FrictionKeeper& operator=(const FrictionKeeper&) = delete;
 
-  /// Before the loop runs: gives `loop` what `joint` learned with these rules. A file for others is not used; one that is damaged is renamed
-  /// to *.damaged. The log says so.
+  /// Gives `loop` the friction that `joint` learned with these rules; call it before the loop runs. A file for another joint or other
+  /// rules is not used, and a damaged file is renamed to *.damaged. Both are logged.
   void restore(std::size_t joint, const FuzzyFriction& rules, JointLoop& loop, std::int64_t now_ns);
-  /// Begins to write.
+  /// Starts the writing thread.
   void start();
-  /// Of every state: what has changed goes to the writer once a minute, and the begin and end of notice kFrictionDiffers to the log.
+  /// Call it with every state. Once a minute, changes go to the writer. Begin and end of notice kFrictionDiffers go to the log.
   void observe(const StateRecord& record, std::int64_t now_ns);
-  /// Writes what has changed and ends the thread. May be repeated.
+  /// Writes all changes and ends the thread. May be called again.
   void finish();
 
  private:
@@ -60,7 +60,7 @@ class FrictionKeeper {
   std::condition_variable wake_;
   std::map<std::string, std::optional<KeptFriction>> waiting_;  ///< by joint; nothing: remove its file
   bool stop_ = false;
-  bool failed_ = false;  ///< the last write, which the log knows
+  bool failed_ = false;  ///< the last write failed, and the log says so
   std::thread thread_;
 };
 

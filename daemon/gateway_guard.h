@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps a gateway running: starts it and waits for it, restarts it when it has ended, and ends it when it hangs. The log says what
-// it drops. Not real-time.
+// Keeps a gateway running: starts it and waits for it, restarts it when it has ended, and ends it when it hangs. Logs the datagrams
+// that the gateway drops. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace strainwave {
 
 class GatewayGuard {
  public:
-  /// `inbound` is what the gateway writes into; it must live longer.
+  /// `inbound` is the memory that the gateway writes into; it must outlive this object.
   GatewayGuard(const DaemonConfig& config, GatewayProcess::Descriptors descriptors,
                const InboundMemory& inbound);
 
-  /// Starts the gateway and waits until it is ready, which it is not before the network is there. False: not `wanted` any more. Throws
-  /// std::runtime_error when it ends or hangs.
+  /// Starts the gateway and waits until it is ready, which requires the network. Returns false as soon as `wanted` does. Throws
+  /// std::runtime_error when the gateway ends or hangs.
   bool start(const std::function<bool()>& wanted);
-  /// One look, every turn. A gateway that has ended is started again if `wanted`.
+  /// Call it every turn of the supervisor. Restarts a gateway that has ended if it is `wanted`, and ends one that hangs.
   void watch(bool wanted, std::int64_t now_ns);
 
  private:
@@ -35,7 +35,7 @@ class GatewayGuard {
   void log_deafness();
 
   std::string prefix_;
-  std::string user_;  ///< under which it runs, as the log says it
+  std::string user_;  ///< user that the gateway runs as, as text for the log
   GatewayProcess process_;
   const InboundMemory& inbound_;
   LogLimiter dropped_log_;

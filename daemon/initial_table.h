@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gain table that a joint starts with: read from its file and judged as one that is loaded over LCM. The start and
+// Reads the gain table that a joint starts with, and judges it like a table that is loaded over LCM. The start and
 // `strainwaved --check` both call this. Not real-time.
 #pragma once
 
@@ -14,12 +14,12 @@ namespace strainwave {
 
 struct InitialTable {
   GainTable table;
-  std::string verdict;              ///< the certificate's smallest margin, and which torque limit holds
+  std::string verdict;              ///< the certificate's smallest margin, and the torque limit in force
   std::vector<std::string> doubts;  ///< about the joint's limits with this table
 };
 
-/// Nothing when the configuration names none. Throws InputError that names where it does: a file that cannot be read, is no table,
-/// may be written by others than the configuration may, or is refused for the joint.
+/// Returns nothing when the configuration names no table. Throws InputError for a file that cannot be read, is no table, can be
+/// written by other users (writers_allowed()), or is refused for the joint. The error names the place in the configuration.
 std::optional<InitialTable> read_initial_table(const JointConfig& joint);
 
 }  // namespace strainwave

@@ -26,7 +26,7 @@ fs::path runtime_directory() {
     const char* value = std::getenv(name);
     return value == nullptr ? "" : value;
   };
-  // systemd's, the first if there are several.
+  // The first of systemd's directories.
   if (const std::string ours = variable("RUNTIME_DIRECTORY"); !ours.empty())
     return ours.substr(0, ours.find(':'));
   if (::geteuid() == 0) return "/run/strainwave";
@@ -37,7 +37,7 @@ fs::path runtime_directory() {
 }
 // NOLINTEND(concurrency-mt-unsafe)
 
-// CAN interfaces and LCM's network are those of this namespace: so are its locks.
+// CAN interfaces and LCM's network belong to this network namespace, so the locks do, too.
 std::string file_name(const std::string& name) {
   struct stat network {};
   const bool known = ::stat("/proc/self/ns/net", &network) == 0;
@@ -71,7 +71,7 @@ InstanceLock::InstanceLock(const std::string& name, const std::string& remedy) {
   file_.reset(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (!file_)
     throw InputError(path.string() + ": the lock cannot be made: " + std::generic_category().message(errno));
-  // Root beside the service: the file must be the service's, or its next start could not open it.
+  // If root runs this, the file must belong to the directory's owner: else the service could not open it at its next start.
   struct stat folder {};
   if (::geteuid() == 0 && ::stat(path.parent_path().c_str(), &folder) == 0)
     (void)!::fchown(file_.get(), folder.st_uid, folder.st_gid);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One daemon per prefix, and one per drive, in a network namespace: a locked file in a directory that only we can write. The
-// kernel frees the lock, however the process ends. Not real-time.
+// Allows one daemon per prefix, and one per drive, in a network namespace. The lock is a locked file in a directory that only
+// our user can write. The kernel frees it however the process ends. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace strainwave {
 
-/// Where the locks are: the service manager's runtime directory ($RUNTIME_DIRECTORY), /run/strainwave for root, else
-/// strainwave/ in $XDG_RUNTIME_DIR, else .strainwave/ in $HOME. Made if it is missing. Throws InputError: there is none of them,
-/// or others than its owner may write it, who could keep the daemon from starting.
+/// Returns the directory for locks, and makes it if it is missing. It is the service manager's ($RUNTIME_DIRECTORY), /run/strainwave
+/// for root, else strainwave/ in $XDG_RUNTIME_DIR, else .strainwave/ in $HOME. Throws InputError if there is none of them, or if other
+/// users may write into it, since they could keep the daemon from starting.
 std::filesystem::path lock_directory();
 
 class InstanceLock {
  public:
-  /// Holds `name`. Throws InputError with `remedy` when another process holds it, or when lock_directory() does.
+  /// Locks `name`. Throws InputError with `remedy` if another process holds it; lock_directory() may also throw.
   InstanceLock(const std::string& name, const std::string& remedy);
 
  private:

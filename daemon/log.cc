@@ -23,13 +23,13 @@ bool takes_a_line(int file) {
   return ::poll(&descriptor, 1, 0) > 0 && (descriptor.revents & POLLOUT) != 0;
 }
 
-/// stderr, without ever waiting for its reader: a pager that nobody pages, or a journal that hangs, must not
-/// keep the supervisor from passing on a stop. What is not taken at once is lost, and the next line that is
-/// taken says how many.
+/// Writes to stderr without ever waiting for its reader. A pager that stands still, or a journal that hangs, must
+/// not keep the supervisor from passing on a stop. Lines that stderr does not take at once are lost; the log
+/// reports their number before its next line.
 class NeverWaitingSink final : public spdlog::sinks::ansicolor_stderr_sink_mt {
  public:
-  /// What came from outside stands in many lines: none of them may end its line, begin another with a priority of its own, or
-  /// command a terminal.
+  /// Many lines quote text from outside. Such text must not end its line, begin another with a priority of its own, or
+  /// control a terminal.
   void log(const spdlog::details::log_msg& raw) override {
     const std::string text = printable({raw.payload.data(), raw.payload.size()});
     spdlog::details::log_msg message = raw;
@@ -69,7 +69,7 @@ class JournalLevel final : public spdlog::custom_flag_formatter {
 
 void start_logging() {
   auto logger = std::make_shared<spdlog::logger>("strainwaved", std::make_shared<NeverWaitingSink>());
-  // systemd tells by this variable that stderr is the journal's.
+  // systemd sets this variable if stderr goes to the journal.
   if (std::getenv("JOURNAL_STREAM") != nullptr) {  // NOLINT(concurrency-mt-unsafe): before any thread
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     formatter->add_flag<JournalLevel>('*').set_pattern("%*%v");

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logging of the core's supervisor and the start-up: spdlog to stderr, which under systemd is the journal. Never from the
-// real-time thread, and never waiting for a reader. Control characters in a line become question marks.
+// Logging of the supervisor and the start-up: spdlog to stderr, which is the journal under systemd. The real-time thread must
+// not log. Logging never waits for a reader. Control characters in a line become question marks.
 #pragma once
 
 #include <cstdint>
 
 namespace strainwave {
 
-/// Chooses the form of the lines. Call once, first.
+/// Sets the format of the lines. Call it once, before the first line.
 void start_logging();
 
-/// Lets at most `burst` lines through per `window`, and says how many it kept back.
+/// Lets at most `burst` lines through per `window`, and counts the lines that it suppresses.
 class LogLimiter {
  public:
   LogLimiter(int burst, std::int64_t window_ns) : burst_(burst), window_ns_(window_ns) {}
-  /// Whether to log now; `suppressed` is set to the number kept back in the window before, else 0.
+  /// Whether to log now. Sets `suppressed` to the number of lines suppressed in the window before, else to 0.
   bool allow(std::int64_t now_ns, std::int64_t& suppressed) {
     suppressed = 0;
     if (now_ns - window_start_ns_ >= window_ns_) {

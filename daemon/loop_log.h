@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the real-time loop tells of, as a line in the log. Not real-time.
+// Writes the events of the real-time loop to the log. Not real-time.
 #pragma once
 
 #include "daemon/config/config.h"
@@ -7,10 +7,10 @@
 
 namespace strainwave {
 
-/// Whether `event` is that of a joint that faulted.
+/// Whether `event` reports that a joint faulted.
 bool tells_of_fault(const LoopEvent& event) noexcept;
 
-/// One line: a fault with its cause and where its limit is configured, a yield with the load and what was allowed, or a change of the mode.
+/// Logs one line: a fault with its cause and the key of its limit, a yield with the load and its limit, or a change of mode.
 void log_loop_event(const JointConfig& joint, const LoopEvent& event);
 
 }  // namespace strainwave

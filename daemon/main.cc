@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
                     {"strainwaved --config strainwaved.toml",
                      "run until a signal; every joint comes to rest before the end"}},
        .see_also = {"strainwavectl(1)", "strainwave-telemetry(8)", "strainwave-design(1)"}});
-  // A log that may not grow or has lost its reader is no reason to end.
+  // A log file at its size limit, or a log without a reader, must not end the daemon.
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
   return strainwave::run_program(app, argc, argv, [&] { return strainwave::run(arguments); });

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kCyclesUntilReady = 100;
 constexpr std::int64_t kLongestSilence_ns = 200'000'000;
-/// Messages within the watchdog's time: some may be late when the machine is busy.
+/// Messages within the watchdog's time; some may be late when the machine is busy.
 constexpr std::int64_t kMessagesPerWatchdog = 4;
 
 std::int64_t alive_every_ns() {
@@ -31,7 +31,7 @@ void ServiceNotifier::update(std::int64_t cycles, std::int64_t overruns, std::in
   }
   if (now_ns < alive_due_ns_) return;
   alive_due_ns_ = now_ns + alive_every_ns_;
-  // Only a loop that goes round may keep the service alive.
+  // Only a running loop may keep the service alive.
   if (cycles > alive_cycles_) ::sd_notify(0, "WATCHDOG=1");
   alive_cycles_ = cycles;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages to the service manager (systemd): ready once the loop meets its timing, alive while the loop goes
-// round, the modes of the joints as a line of status. Without a service manager nothing is sent. Not
+// Sends messages to the service manager (systemd): ready once the loop meets its timing, alive while the loop
+// runs, and the modes of the joints as a status line. Without a service manager it sends nothing. Not
 // real-time. Source: sd_notify(3).
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace strainwave {
 
-/// The loop meets its timing when so many cycles in a row began without a skipped period.
+/// The loop meets its timing once `cycles_needed` cycles in a row began without a skipped period.
 class TimingProof {
  public:
   explicit TimingProof(std::int64_t cycles_needed) : cycles_needed_(cycles_needed) {}
 
-  /// Totals since the loop's start, as LoopTotals counts them. True from the first proof on.
+  /// Takes totals since the loop's start, as in LoopTotals. Returns true from the first proof on.
   bool update(std::int64_t cycles, std::int64_t overruns) noexcept {
     if (overruns != overruns_) {
       overruns_ = overruns;
@@ -36,8 +36,8 @@ class ServiceNotifier {
   /// Reads the watchdog's time from the environment ($WATCHDOG_USEC).
   ServiceNotifier();
 
-  /// Once a turn of the supervisor. Says "ready" when it is proven, and "alive" several times within the
-  /// watchdog's time, but only if `cycles` has risen since it last said so.
+  /// Call it once per turn of the supervisor. Sends "ready" when the timing is proven. Sends "alive" several times
+  /// within the watchdog's time, but only if `cycles` has risen in between.
   void update(std::int64_t cycles, std::int64_t overruns, std::int64_t now_ns);
   bool ready() const noexcept { return ready_; }
   /// The line that `systemctl status` shows; sent when it has changed.

@@ -35,7 +35,7 @@ void tell_loads(const JointConfig& joint, const std::optional<InitialTable>& ini
       << loads.notice_Nm << ", torque limit " << torque_limit_Nm << '\n';
 }
 
-/// A matter of this process's cpuset, which may not be the service's.
+/// Only a warning: the service's cpuset may differ from this process's.
 void check_processor(const DaemonConfig& config, std::ostream& out) {
   if (const std::string problem = processor_problem(config.loop.cpu); !problem.empty())
     out << "warning: " << problem << '\n';
@@ -44,7 +44,7 @@ void check_processor(const DaemonConfig& config, std::ostream& out) {
 void check_gateway(const DaemonConfig& config, std::ostream& out) {
   if (const std::filesystem::path program = find_gateway_program(); !std::filesystem::exists(program))
     throw InputError(program.string() + ": the daemon's gateway is missing: install it again");
-  // No matter of the configuration: the service has the route made before it starts.
+  // Only a warning: the service has the route made before it starts.
   if (const auto problem = find_multicast_problem(config.lcm_url))
     out << "warning: daemon.lcm_url = \"" << printable(config.lcm_url) << "\": " << *problem
         << "\nThe service does this by itself (strainwave-multicast.service).\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `strainwaved --check`: whether the daemon would start on this machine with a configuration. Loads and certifies all that the
-// start would, and says what it leaves to others. Touches no drive, takes no lock, changes nothing. Not real-time.
+// `strainwaved --check`: checks whether the daemon would start on this machine with a configuration. Loads and certifies every file
+// that the start would, and lists the checks that it omits. Touches no drive, takes no lock, changes nothing. Not real-time.
 #pragma once
 
 #include <ostream>
@@ -9,9 +9,9 @@
 
 namespace strainwave {
 
-/// Writes to `out` the doubts about `config`, what holds for each joint's table, and what was not checked. Throws InputError for
-/// what would end the start: a table that is not there, not protected or not certified; no gateway. Multicast that does not work
-/// now is a doubt.
+/// Writes to `out` the warnings about `config`, the verdict on each joint's table, its load limits, and the omitted checks. Throws
+/// InputError for an error that would end the start: a table that is missing, not protected or not certified; no gateway. Multicast
+/// that does not work now is only a warning.
 void check_start(const DaemonConfig& config, std::ostream& out);
 
 }  // namespace strainwave

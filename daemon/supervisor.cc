@@ -54,7 +54,7 @@ std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& conf
   return sources;
 }
 
-// In the writer's thread. A disk that is full or gone shall not fill the log.
+// Runs in the writer's thread. A full or missing disk must not fill the log.
 FlightRecordWriter::Report log_flight_records() {
   constexpr int kComplaints = 5;
   constexpr std::int64_t kComplaintWindow_ns = 60'000 * kMillisecond_ns;
@@ -112,7 +112,7 @@ void Supervisor::fill_shared_memory() {
     outbound_.joint_names[i] = FixedString<32>(config_.joints[i].name);
 }
 
-// The loop has not started: the orders wait in the queues and are its first.
+// The loop has not started yet: these orders wait in its queues, and it executes them first.
 void Supervisor::load_initial_tables() {
   for (std::size_t i = 0; i < config_.joints.size(); ++i) {
     const JointConfig& joint = config_.joints[i];
@@ -129,15 +129,15 @@ void Supervisor::load_initial_tables() {
 
 void Supervisor::run() {
   if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
-  // First: a process started by a real-time one would inherit too much.
+  // First: a child of a real-time process would inherit too much.
   if (!gateway_.start([this] { return !signals_.take(); })) return;
   flight_records_.start();
   friction_.start();
   orders_.start();
   log_buses();
-  publish_challenge();  // the first state has one
+  publish_challenge();  // so that the first state carries one
   loop_.start();
-  // After what computes in threads of its own was started, which this is not for.
+  // Later than the start of the other threads, which must not inherit this priority.
   if (const std::string refusal = prefer_this_thread(); !refusal.empty()) spdlog::warn("{}", refusal);
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
@@ -158,10 +158,10 @@ void Supervisor::run() {
 }
 
 void Supervisor::turn(std::int64_t now_ns) {
-  take_events();  // first: what was ordered before a fault is not obeyed after it
+  take_events();  // first: an order from before a fault must not act after it
   publish_challenge();
   take_messages(now_ns);
-  publish_challenge();  // a stop is not answered before states carry the challenge that is good after it
+  publish_challenge();  // before a stop is answered, states carry the challenge that is valid after it
   orders_.take_replies(now_ns);
   log_buses();
   publish_owners(now_ns);
@@ -173,7 +173,7 @@ void Supervisor::turn(std::int64_t now_ns) {
 
 void Supervisor::wait(std::int64_t wait_ms) {
   const int timeout_ms =
-      orders_.waiting() ? 1 : static_cast<int>(wait_ms);  // a loop that owes a reply wakes nobody
+      orders_.waiting() ? 1 : static_cast<int>(wait_ms);  // the loop cannot wake this thread when it replies
   std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signals_.descriptor(), POLLIN, 0}}};
   if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
   wake_.take();
@@ -202,18 +202,18 @@ void Supervisor::publish_owners(std::int64_t now_ns) {
 }
 
 void Supervisor::take_messages(std::int64_t now_ns) {
-  // A bound on a turn, or a gateway that never stops writing would keep everything else waiting.
+  // The bound keeps a gateway that never stops writing from delaying everything else.
   for (std::size_t i = 0; i < 2 * InboundLane::kMessages; ++i)
     if (!take_message(inbound_.stops, stops_taken_, outbound_.stops_taken, now_ns) &&
         !take_message(inbound_.orders, orders_taken_, outbound_.orders_taken, now_ns))
       return;
 }
 
-// The next message of `lane`, of which `taken` have been taken, as the gateway is `told`. False when there is none.
+// Takes the next message of `lane`. `taken` counts the messages; `told` gives the count to the gateway. Returns false without a message.
 bool Supervisor::take_message(const InboundLane& lane, std::uint64_t& taken, std::atomic<std::uint64_t>& told,
                               std::int64_t now_ns) {
   const std::uint64_t written = lane.written.load(std::memory_order_acquire);
-  // A gateway that lies about its counter loses what it sent and harms nobody, nor the one that comes after it.
+  // A gateway with a false counter loses its own messages. It harms neither the daemon nor the next gateway.
   if (written - taken > InboundLane::kMessages) told.store(taken = written, std::memory_order_release);
   if (taken == written) return false;
   *incoming_ = lane.messages[taken % InboundLane::kMessages];

@@ -26,12 +26,12 @@ namespace strainwave {
 
 class Supervisor {
  public:
-  /// Takes the locks, makes drivers and shared memory. Throws InputError or std::system_error.
+  /// Takes the locks, and makes drivers and shared memory. Throws InputError or std::system_error.
   explicit Supervisor(const DaemonConfig& config);
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Runs until SIGTERM, SIGINT or any other signal that may be sent has brought every joint to rest.
+  /// Runs until a signal of EndSignals, such as SIGTERM or SIGINT, has brought every joint to rest.
   void run();
 
  private:
@@ -67,7 +67,7 @@ class Supervisor {
   Answers answers_;
   PendingOrders orders_;
   GatewayGuard gateway_;
-  std::vector<StateRecord> latest_;  ///< of each joint
+  std::vector<StateRecord> latest_;  ///< latest state of each joint
   LogLimiter refusal_log_;
   ServiceNotifier service_;
   std::unique_ptr<WireMessage> incoming_;

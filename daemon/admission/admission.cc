@@ -61,7 +61,7 @@ Verdict Admission::pass(const Requester& requester, OrderKind kind, std::int64_t
   return verdict;
 }
 
-// Of a message that is not verified: the answer, if there is one yet, says nothing new to anybody.
+// Does not verify the message: a repeated answer reveals nothing new.
 bool Admission::repeats(const WireMessage& message, const Requester& requester) const {
   if (is_unsigned(payload(message)))
     return unsigned_sequences_.is_last({requester.sender_id, requester.joint}, requester.sender_id,
@@ -88,7 +88,7 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
 std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::int64_t challenge,
                                               const Requester& requester) const {
   if (challenges_.expiry_cycle(challenge) < 0) {
-    // What takes longer than an order lives, as the proof of a table, is asked for again meanwhile.
+    // Some orders take longer than an order's lifetime, such as the proof of a table; clients repeat them meanwhile.
     if (repeats(message, requester)) return repeat(requester);
     return refuse(
         requester, Reason::kTooOld,
@@ -112,7 +112,7 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
       "the joint was stopped or held after this command was made: see why, then send the command again");
 }
 
-// What is only claimed is enough to say why an order is refused.
+// The claim is not verified: it only selects the reason of a refusal.
 std::int64_t Admission::claimed_key(const WireMessage& message) const {
   if (is_unsigned(payload(message))) return -1;
   const auto key = security_.keys.find(key_id_of(payload(message)));
@@ -196,8 +196,8 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   return refuse(requester, Reason::kNotOwner, text.str());
 }
 
-// Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are: by torque taken
-// away (disable), or under control (hold). Who proves who he is gets his answer however many others ask for one.
+// Every sender may stop a joint, whatever its session, sequence and key: without torque (disable) or under control (hold).
+// A sender with a verified signature gets its answer even when many others ask for one.
 Verdict Admission::stop(const WireMessage& message, OrderKind kind, std::int64_t session_id,
                         std::int64_t challenge, Requester requester) {
   requester.stop = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of admission.h that judges what each kind of message says, once its envelope has passed.
+// Part of admission.h: judges the content of each kind of message, once its envelope has passed.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -22,12 +22,12 @@ namespace strainwave {
 namespace {
 
 constexpr double kMaxInjection_s = 3600.0;
-// Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
+// No joint moves faster than this. Below, the joint follows a stream's samples as far as its own limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;
 constexpr double kMaxAcceleration_rad_s2 = 1e6;
-// A limit this low is no calm motion but a joint that nobody sees move: a hundredth of what follows a star.
+// With a lower limit the motion would be too slow to see. This is about a hundredth of the sidereal rate.
 constexpr double kLeastSpeedLimit_rad_s = 1e-6;
-// A load of so many times the joint's inertia leaves it a tenth of its acceleration, and no table is certified for it.
+// In multiples of the joint's inertia. This load leaves about a tenth of the acceleration, and no table is certified for it.
 constexpr double kHeaviestLoad = 10.0;
 
 struct Number {
@@ -42,7 +42,7 @@ std::optional<std::string> complaint_about_numbers(std::initializer_list<Number>
   return std::nullopt;
 }
 
-// What a setpoint says beyond its position must be possible, and is for streams only.
+// Velocity, acceleration and time of a setpoint must be possible. Only setpoints of a stream may have them.
 std::optional<std::string> complaint_about_motion(const setpoint_v1& setpoint) {
   std::ostringstream text;
   if (setpoint.derivatives < 0 || setpoint.derivatives > 2)
@@ -69,7 +69,7 @@ std::optional<std::string> complaint_about_motion(const setpoint_v1& setpoint) {
   return text.str();
 }
 
-// What a sample tells of its load may be no more than the joint could carry, and is for streams only.
+// The joint must be able to carry the load of a sample. Only setpoints of a stream may have a load.
 std::optional<std::string> complaint_about_load(const setpoint_v1& setpoint, const ExpectedJoint& joint) {
   std::ostringstream text;
   const double heaviest_kgm2 = kHeaviestLoad * joint.plant.inertia_kgm2;
@@ -113,7 +113,7 @@ std::optional<OrderKind> order_of(Action action) {
       return OrderKind::kResumeLearning;
     case Action::kTakeOver:
     case Action::kRelease:
-      break;  // of admission itself, not of the loop
+      break;  // admission carries these out, not the loop
   }
   return std::nullopt;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of admission.h that judges paths: each joint's as a whole, before any of it reaches the loop.
+// Part of admission.h: judges each joint's path as a whole, before any of it reaches the loop.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::size(path_v1{}.time_s) == KnotPath::kMostKnots);
 
-// Knots beyond knot_count mean nothing. A count that is none is find_defect()'s, a negative one, too.
+// Knots beyond knot_count are ignored. find_defect() refuses a count that is out of range or negative.
 KnotPath knots_of(const path_v1& message) {
   KnotPath path;
   path.count = static_cast<std::size_t>(message.knot_count);

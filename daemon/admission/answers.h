@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages that the core sends by itself: acknowledgements, temperature, limits, timing. Made here in wire form,
-// published by the gateway. Not real-time.
+// Makes the core's own messages in wire form: acknowledgements, temperature, limits, timing. The gateway publishes
+// them. Not real-time.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ class Answers {
           decltype(OutboundMemory::messages)& out);
 
   void answer(const Requester& to, Reason reason, const std::string& text);
-  /// The last answer to this sender again, if it was to the same sequence; else nothing: it is still being
-  /// worked on.
+  /// Sends the last answer to this sender again if it has the same sequence. Otherwise sends nothing: the order is
+  /// still in progress.
   void repeat(const Requester& to);
 
   void temperature(const StateRecord& record);
-  /// What joint number `joint` is and may do.
+  /// Sends the limits and properties of joint number `joint`.
   void limits(std::size_t joint, const PlantIdentity& plant, const JointLoopConfig& config);
   void timing(const LoopTotals& statistics, const std::array<std::int64_t, kReasonCount>& rejects,
               const LoopConfig& config, bool real_time, std::int64_t records_dropped);

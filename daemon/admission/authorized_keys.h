@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may give orders: the public keys of [security] authorized_keys with their roles. Not real-time.
+// The public keys that may sign orders, with their roles: the file security.authorized_keys. Not real-time.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class AuthorizedKeys {
   static constexpr std::size_t kMaxKeys = 256;
 
   AuthorizedKeys() = default;
-  /// Each with a key_id of its own.
+  /// The key ids must differ.
   explicit AuthorizedKeys(std::vector<AuthorizedKey> keys) : keys_(std::move(keys)) {}
 
   std::size_t size() const noexcept { return keys_.size(); }
@@ -29,21 +29,21 @@ class AuthorizedKeys {
   std::vector<AuthorizedKey> keys_;
 };
 
-/// What is believed of an order's origin.
+/// Which orders are trusted, and for how long.
 struct SecurityPolicy {
   AuthorizedKeys keys;
-  bool unsigned_allowed = false;  ///< orders without a signature are obeyed: for simulated joints only
-  double lease_s = 2.0;           ///< the owner of a joint loses it after this silence
-  std::int64_t order_lifetime_cycles = 1000;  ///< from the drawing of the challenge that an order quotes
+  bool unsigned_allowed = false;              ///< obeys orders without a signature: for simulated joints only
+  double lease_s = 2.0;                       ///< the owner of a joint loses it after this silence
+  std::int64_t order_lifetime_cycles = 1000;  ///< from the draw of the quoted challenge
 };
 
-/// The credential of the same file name, if the service manager hands one over ($CREDENTIALS_DIRECTORY; LoadCredential= in
-/// the unit): the file itself may then be readable by root alone. Otherwise `path`.
+/// The credential with the same file name, if the service manager provides one ($CREDENTIALS_DIRECTORY; LoadCredential= in
+/// the unit). The file itself may then be readable only by root. Without a credential: `path`.
 std::filesystem::path credential_or_file(const std::filesystem::path& path);
 
 /// Reads `path`: a key per line, see lcmtypes/key_text.h; empty lines and lines that begin with # are
-/// skipped. Throws InputError with file and line: unreadable, writable by everyone, owned by a third user, no
-/// key, a defective line, a key twice.
+/// skipped. Throws InputError with file and line if the file is unreadable, too large or writable for others. Also throws
+/// if it has no key, too many keys, a defective line, or a key twice.
 AuthorizedKeys read_authorized_keys(const std::filesystem::path& path);
 
 }  // namespace strainwave

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an order must quote to be obeyed: a random number from the daemon's state that is not older than an order may become. It
-// cannot be known before it is published. So an order that an attacker delays is soon worthless, whatever clocks and states are forged.
-// A stop or a fault of a joint ends all that were drawn until then for that joint: an order that was sent before a stop is not obeyed after
-// it, whichever came first. The sender may repeat its order after its own stop, but not after that of another. Time is
-// the loop's own count of periods. Not real-time.
+// Challenges: random numbers in the daemon's state. An order must quote one that is younger than the order lifetime. A challenge is
+// unknown before it is published, so a delayed order soon becomes worthless, whatever clocks and states an attacker forges.
+// A stop or fault of a joint invalidates the joint's earlier challenges. After a stop the daemon thus obeys no order that was sent
+// before it, whichever arrived first. A sender may repeat its order after its own stop, but not after that of another. Time is the
+// loop's count of periods. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,31 @@
 
 namespace strainwave {
 
-/// A message by its sender and its place among his: an order, or a stop. Programs of one account have one sender_id, whatever their keys.
+/// Identifies an order or a stop by sender and sequence. Programs of one account share a sender_id, whatever their keys.
 struct Sent {
   std::int64_t sender_id = 0;
   std::int64_t sequence = 0;
-  std::int64_t key = -1;  ///< of the key that signed; -1: none, or not proved
+  std::int64_t key = -1;  ///< index of the signing key, of an order as claimed; -1: none, or not verified
 
   bool of_the_sender_of(const Sent& other) const noexcept {
     return sender_id == other.sender_id && key == other.key;
   }
 };
 
-/// What has become of a joint since an order's challenge was new.
+/// How a joint was stopped since the draw of an order's challenge.
 enum class Since {
   kNothing,
-  kOwnStop,  ///< its sender stopped it before it gave the order, or it has faulted: the order may be repeated
-  kOthersStop,  ///< another stopped it, or its sender did after it gave the order: it is overtaken
+  kOwnStop,     ///< the sender stopped it before giving the order, or it faulted: the order may be repeated
+  kOthersStop,  ///< another sender stopped it, or the same one after giving the order: the order is superseded
 };
 
 class Challenges {
  public:
-  /// So many are drawn in the lifetime of one.
+  /// Challenges drawn in a lifetime without stops.
   static constexpr std::int64_t kPerLifetime = 8;
 
-  /// After a stop the next is drawn at once, after more stops than this in a lifetime not so many times that those of a lifetime are
-  /// forgotten.
+  /// After a stop or fault the next challenge is drawn at once, up to kAtOncePerLifetime times in a lifetime. Beyond this, at most
+  /// kMostPerLifetime are drawn in a lifetime, so that the buffer never loses a valid challenge.
   static constexpr std::int64_t kAtOncePerLifetime = 1024;
   static constexpr std::int64_t kMostPerLifetime = 100;
 
@@ -46,10 +46,10 @@ class Challenges {
         least_step_cycles_((lifetime_cycles + kMostPerLifetime - 1) / kMostPerLifetime),
         joints_(joints) {}
 
-  /// How long one is good at most, from when it is drawn.
+  /// Longest validity of a challenge, from its draw.
   std::int64_t lifetime_cycles() const noexcept { return step_cycles_ * (kPerLifetime + 1); }
 
-  /// It is `cycle` now: takes `random` as the new challenge when one is due. Returns the present one, never 0.
+  /// Sets the present cycle; takes `random` as the new challenge when one is due. Returns the present challenge, never 0.
   std::int64_t advance(std::int64_t cycle, std::int64_t random) noexcept {
     cycle_ = std::max(cycle_, cycle);
     if (is_due()) {
@@ -60,7 +60,7 @@ class Challenges {
     return drawn_[newest_].challenge;
   }
 
-  /// `joint` is stopped now, by that message.
+  /// The message `stop` stops `joint` now.
   void stop(std::size_t joint, const Sent& stop) noexcept {
     JointStops& stops = joints_[joint];
     if (!stops.last.of_the_sender_of(stop)) stops.others = stops.sent;
@@ -68,23 +68,23 @@ class Challenges {
     stops.sent = draws_;
     end_all(stops);
   }
-  /// `joint` has faulted in `cycle`. What is drawn in that cycle may be from before it.
+  /// `joint` faulted in `cycle`. The next challenge is drawn in a later cycle, since one of this cycle could precede the fault.
   void fault(std::size_t joint, std::int64_t cycle) noexcept {
     faulted_cycle_ = std::max(faulted_cycle_, cycle);
     end_all(joints_[joint]);
   }
 
-  /// The cycle beyond which an order that quotes `challenge` is too old; negative when it is so already, or was never drawn.
+  /// The last cycle in which an order may quote `challenge`; negative if it has expired or was never drawn.
   std::int64_t expiry_cycle(std::int64_t challenge) const noexcept {
     const Drawn* drawn = find(challenge);
     return drawn == nullptr ? -1 : drawn->cycle + lifetime_cycles();
   }
-  /// In which cycle it was drawn, -1: it was not, or has expired.
+  /// The cycle in which `challenge` was drawn; -1 if it has expired or was never drawn.
   std::int64_t drawn_cycle(std::int64_t challenge) const noexcept {
     const Drawn* drawn = find(challenge);
     return drawn == nullptr ? -1 : drawn->cycle;
   }
-  /// What became of `joint` since `challenge`, which has not expired and is quoted by `order`, was new.
+  /// How `joint` was stopped since the draw of `challenge`, which `order` quotes and which has not expired.
   Since since(std::int64_t challenge, std::size_t joint, const Sent& order) const noexcept {
     const Drawn* drawn = find(challenge);
     const JointStops& stops = joints_[joint];
@@ -95,7 +95,7 @@ class Challenges {
         (drawn->number <= stops.sent && !of_own) || (drawn->number <= stops.others && of_sender);
     return overtaken ? Since::kOthersStop : Since::kOwnStop;
   }
-  /// How often `joint` was stopped: the same number later means that it was not meanwhile.
+  /// Number of stops and faults of `joint`. An equal number later means that there was none in between.
   std::int64_t stop_count(std::size_t joint) const noexcept { return joints_[joint].count; }
   std::int64_t cycle() const noexcept { return cycle_; }
 
@@ -105,11 +105,11 @@ class Challenges {
     std::int64_t cycle = 0;
     std::int64_t number = 0;
   };
-  /// What ended challenges of a joint. Numbers are those of draws: what has them, or less, is from before.
+  /// Stops and faults of a joint, each as the number of the last draw before it. Challenges up to this number are older.
   struct JointStops {
     std::int64_t any = 0;     ///< the last stop or fault
     std::int64_t sent = 0;    ///< the last stop, `last`
-    std::int64_t others = 0;  ///< the last stop of another sender than that
+    std::int64_t others = 0;  ///< the last stop of a sender other than that of `last`
     Sent last;
     std::int64_t count = 0;
   };
@@ -139,9 +139,9 @@ class Challenges {
   std::int64_t cycle_ = 0;
   std::int64_t draws_ = 0;
   std::vector<JointStops> joints_;
-  std::int64_t faulted_cycle_ = -1;  ///< the last in which any joint has
+  std::int64_t faulted_cycle_ = -1;  ///< the last cycle in which any joint faulted
   bool due_soon_ = false;
-  // As many as can be drawn in the nine eighths of a lifetime that one is good for.
+  // Holds all challenges that can be drawn while one is valid: nine eighths of a lifetime.
   std::array<Drawn, kAtOncePerLifetime + 2 * kMostPerLifetime> drawn_{};
   std::size_t newest_ = 0;
 };

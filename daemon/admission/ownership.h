@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who has a joint. The first whose order is accepted has it until he is silent for the time of a lease, gives it up, or an
-// engineer takes it over. An order on its way to the loop reserves a free joint, so that of two at once one is refused. Time is
-// an argument. Not real-time.
+// Ownership of joints. The sender of the first accepted order owns the joint until it is silent for a lease, releases the joint, or
+// an engineer takes it over. An order on its way to the loop reserves a free joint, so that one of two simultaneous senders is
+// refused. Time is an argument. Not real-time.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace strainwave {
 
 class Ownership {
  public:
-  /// A program that orders.
+  /// A program that gives orders.
   struct Holder {
     std::int64_t key = -1;  ///< index of its key; -1: it does not sign
     std::int64_t sender_id = 0;
@@ -24,7 +24,7 @@ class Ownership {
 
   Ownership(std::size_t joints, double lease_s) : lease_ns_(nanoseconds(lease_s)), leases_(joints) {}
 
-  /// Whether `holder` may order `joint`: it is free or owned by `holder`. A free joint is reserved for it.
+  /// Whether `holder` may order `joint`: it is free or its own. Reserves a free joint, and renews the lease of an owner.
   bool reserve(std::size_t joint, const Holder& holder, std::int64_t now_ns) {
     Lease& lease = leases_[joint];
     if (now_ns < lease.until_ns && !(lease.holder == holder)) return false;
@@ -33,7 +33,7 @@ class Ownership {
     return true;
   }
 
-  /// What became of an order that reserve() let through.
+  /// Reports the outcome of an order that reserve() let through.
   void settle(std::size_t joint, const Holder& holder, bool accepted, std::int64_t now_ns) {
     Lease& lease = leases_[joint];
     if (!(lease.holder == holder) || now_ns >= lease.until_ns) return;
@@ -46,7 +46,7 @@ class Ownership {
   void take(std::size_t joint, const Holder& holder, std::int64_t now_ns) {
     leases_[joint] = {holder, now_ns + lease_ns_, true};
   }
-  /// False when he does not have it.
+  /// False if `holder` does not have the joint.
   bool release(std::size_t joint, const Holder& holder, std::int64_t now_ns) {
     Lease& lease = leases_[joint];
     if (now_ns >= lease.until_ns || !(lease.holder == holder)) return false;
@@ -59,18 +59,18 @@ class Ownership {
     const Lease& lease = leases_[joint];
     return lease.confirmed && now_ns < lease.until_ns ? lease.holder.sender_id : 0;
   }
-  /// How long the owner may yet be silent, s; 0 when there is none.
+  /// Remaining time of the lease, s; 0 without an owner.
   double lease_s(std::size_t joint, std::int64_t now_ns) const {
     return owner_id(joint, now_ns) == 0 ? 0.0 : seconds(leases_[joint].until_ns - now_ns);
   }
-  /// The holder of `joint`, which is reserved or owned.
+  /// The holder of `joint`, which must be reserved or owned.
   const Holder& holder(std::size_t joint) const { return leases_[joint].holder; }
 
  private:
   struct Lease {
     Holder holder;
     std::int64_t until_ns = 0;
-    bool confirmed = false;  ///< an order of his was accepted
+    bool confirmed = false;  ///< an order of the holder was accepted
   };
   std::int64_t lease_ns_;
   std::vector<Lease> leases_;

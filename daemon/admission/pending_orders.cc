@@ -61,8 +61,8 @@ void PendingOrders::take_proved_table(std::int64_t now_ns) {
     return refuse(verdict, Reason::kSuperseded,
                   "the joint was stopped or faulted while the table was proved: send it again", now_ns);
   verdict.text += proved->box.text;
-  verdict.order.expires_cycle =
-      loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();  // fresh when it came
+  verdict.order.expires_cycle = loop_.statistics().cycle.load() +
+                                admission_.order_lifetime_cycles();  // the order was fresh when it arrived
   give(verdict, now_ns);
 }
 
@@ -87,7 +87,7 @@ void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
                                 verdict.order.kind};
 }
 
-// After any other order there is yet room for a disable and a hold, and of those only one each waits that no other order follows.
+// Other orders leave room for a disable and a hold. Further equal stops join the waiting one, see joins_equal_stop().
 bool PendingOrders::push(const Verdict& verdict) {
   const std::size_t joint = verdict.requester.joint;
   OrderQueue& queue = loop_.joint(joint).orders();
@@ -95,7 +95,7 @@ bool PendingOrders::push(const Verdict& verdict) {
   if ((!stop && queue.room() <= kPlacesForStops) || !queue.push(verdict.order)) return false;
   if (stop)
     latest_stop(verdict) = verdict.order.id;
-  else if (verdict.order.kind == OrderKind::kResumePath)  // of several joints
+  else if (verdict.order.kind == OrderKind::kResumePath)  // affects several joints
     latest_stops_.assign(latest_stops_.size(), {});
   else
     latest_stops_[joint] = {};
@@ -203,8 +203,8 @@ void PendingOrders::give_up(std::int64_t order_id, const Pending& pending, std::
     unanswered_[pending.requester.joint] = {order_id, pending.table_id, loop_.statistics().cycle.load()};
 }
 
-// An order is taken in the cycle after it was given: a state of a later one tells whether its table is in use, and its slot is
-// free again or spoken for.
+// The loop takes an order in the cycle after it was given. A later state shows whether the table is in use, and so whether its
+// slot is free again.
 void PendingOrders::observe(const StateRecord& record) {
   const auto joint = static_cast<std::size_t>(record.joint_index);
   Unanswered& unanswered = unanswered_[joint];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders that were admitted, until they are answered. It hands them to the joints' loops, stores tables where the loop does not look,
-// waits for the replies, and names the clients to answer. Not real-time.
+// Keeps admitted orders until they are answered. Hands them to the joints' loops, stores tables in slots that the loop does not use,
+// waits for the replies, and answers the clients. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +19,37 @@ namespace strainwave {
 
 class PendingOrders {
  public:
-  /// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others. Sources
-  /// share them.
+  /// Average rate and burst of answers to unverified senders, shared by all sources: enough for people, too few to crowd out
+  /// other answers.
   static constexpr double kStrangerAnswersPer_s = 200.0;
   static constexpr double kStrangerAnswersAtOnce = 50.0;
-  /// The same for stops: no forgery of another order uses this share up.
+  /// The same for stops, as a separate budget that forged orders cannot use up.
   static constexpr double kStopAnswersPer_s = 1000.0;
   static constexpr double kStopAnswersAtOnce = 200.0;
   static constexpr std::int64_t kReplyTimeout_ns = 500'000'000;
-  /// Of the places in which orders of a joint wait for its loop: a disable and a hold always find one.
+  /// Places of a joint's order queue that are kept for stops, so that a disable and a hold always find one.
   static constexpr std::size_t kPlacesForStops = 2;
-  /// Senders of equal stops that get the one reply to them, beyond the first; half of the places are for those who sign.
+  /// Further senders of equal stops that share the reply to the first. Half of the places are kept for verified senders.
   static constexpr std::size_t kCompanions = 1024;
 
   PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers);
 
-  /// Begins to prove tables, for which there is a thread.
+  /// Starts the thread that proves tables.
   void start() { prover_.start(); }
 
   /// Whether the loop owes a reply.
   bool waiting() const noexcept { return !pending_.empty(); }
 
-  /// Before the loop runs: its first order. False when the joint cannot take it.
+  /// Call it before the loop runs: makes `table` the joint's first order. False when the joint cannot take it.
   bool load_first_table(std::size_t joint, const GainTable& table);
 
-  /// Obeys the verdict as far as the loop need not; afterwards `verdict` says what has become of it.
+  /// Acts on the verdict: answers it, or passes the order on. A refusal by this class is entered in `verdict`.
   void handle(Verdict& verdict, std::int64_t now_ns);
 
-  /// Passes on tables that were proved meanwhile; answers what the loop has replied to, and what it has not replied to in time.
+  /// Passes on proved tables. Answers orders to which the loop has replied, and those whose reply is overdue.
   void take_replies(std::int64_t now_ns);
 
-  /// A state that the loop has published since. A table whose reply was lost is in use by then, or never will be.
+  /// Evaluates a state from the loop: it shows whether a table is in use whose reply was lost.
   void observe(const StateRecord& record);
 
  private:
@@ -59,9 +59,9 @@ class PendingOrders {
     std::int64_t deadline_ns;
     std::int64_t table_id;  ///< of a table order, else 0
     OrderKind kind;
-    std::vector<Requester> companions = {};  ///< of equal stops that came before its reply
+    std::vector<Requester> companions = {};  ///< senders of equal stops before its reply
   };
-  /// Stops that nothing but stops came after: another one would do no more. 0: none.
+  /// Ids of the latest stops that only stops have followed, so that an equal stop would change nothing. 0: none.
   struct LatestStops {
     std::int64_t disable_id = 0;
     std::int64_t hold_id = 0;
@@ -91,7 +91,7 @@ class PendingOrders {
   Answers& answers_;
   std::vector<TableBook> books_;
   std::vector<LatestStops> latest_stops_;    ///< by joint
-  std::vector<Unanswered> unanswered_;       ///< by joint: its book is busy until this is known
+  std::vector<Unanswered> unanswered_;       ///< by joint; its book stays busy until this is settled
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   TableProver prover_;
   std::int64_t next_order_id_ = 1;

@@ -12,22 +12,22 @@ namespace strainwave {
 
 namespace {
 
-// Of what was measured.
+// Significant digits of measured values.
 constexpr int kShownDigits = 4;
 
 bool is_of_path(OrderKind kind) {
   return kind == OrderKind::kLoadPath || kind == OrderKind::kPausePath || kind == OrderKind::kResumePath;
 }
 
-// What `ratio` of a velocity to the rate of its positions tells.
+// The likely mistake behind `ratio`, the velocity over the rate of the positions; empty if unknown.
 std::string_view unit_of_velocity(double ratio) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
-  constexpr double kNear = 0.05;  // of samples of a motion that is not even
+  constexpr double kNear = 0.05;  // tolerance for samples of uneven motion
   if (std::abs(ratio / kDegrees - 1.0) < kNear) return ", as deg/s would be";
   return std::abs(ratio + 1.0) < kNear ? ", as with the opposite sign" : "";
 }
 
-// What the loop refused by a number: the number, what is allowed, and where that is set.
+// Text of a refusal by a number: the number, what is allowed, and where that is set.
 std::string number_refused(const Reply& reply, OrderKind kind) {
   std::ostringstream text;
   const std::string value = beyond_text(reply.value, reply.limit);
@@ -68,7 +68,7 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
   return text.str();
 }
 
-// Of an order that is for all joints of a path, where that matters.
+// Advice on an order for all joints of a path; empty where the general advice applies.
 std::string path_advice(const Reply& reply, OrderKind kind) {
   if (reply.reason == Reason::kMoving)
     return kind == OrderKind::kLoadPath ? ": a path is taken while the joint holds, hold it first"
@@ -78,7 +78,7 @@ std::string path_advice(const Reply& reply, OrderKind kind) {
   return ": no path is loaded or in progress, or one of the path's joints is not enabled";
 }
 
-// Of an order that does nothing in the mode that it met: why, and what does.
+// Advice on an order that has no effect in the joint's mode: why, and what to do instead.
 std::string mode_advice(Mode mode, OrderKind kind) {
   if (kind == OrderKind::kHold) {
     if (mode == Mode::kOff)

@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Of a reply that is none of acceptance.
+/// `reply` must be a refusal.
 std::string refusal_advice(const Reply& reply, OrderKind kind);
 
 }  // namespace strainwave

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last sequence of each key for each joint, of the time in which an order may still be obeyed: what stops repetitions and
-// orders that overtake. An order that is older than its lifetime is refused for its challenge, so nothing needs to be remembered
-// longer. Bounded. Not real-time.
+// Remembers the last sequence of each key for each joint, to refuse repeated and reordered orders. An order older than its lifetime is
+// refused for its challenge, so no sequence needs to be remembered longer. Bounded. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +14,19 @@ namespace strainwave {
 class SequenceMemory {
  public:
   enum class Judgement {
-    kNew,     ///< rising: remembered from now on
+    kNew,     ///< rising; remembered from now on
     kRepeat,  ///< the very message that was judged last
     kOld,
   };
-  /// Whose sequence rises: a key, or a sender without one, on one joint.
+  /// The owner of a sequence: a key, or a sender without a key, on one joint.
   struct Identity {
     std::int64_t who = 0;
     std::size_t joint = 0;
-    // clang-tidy 14 takes the 0 that a comparison is compared with for a pointer.
+    // clang-tidy 14 mistakes the 0 in comparisons of an ordering for a pointer.
     auto operator<=>(const Identity&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
-  /// `bound`: identities at a time; beyond it the longest silent one is forgotten.
+  /// `bound`: number of identities; beyond it the one that was silent longest is forgotten.
   SequenceMemory(std::int64_t lifetime_cycles, std::size_t bound)
       : lifetime_cycles_(lifetime_cycles), bound_(std::max<std::size_t>(bound, 1)) {}
 

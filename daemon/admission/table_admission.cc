@@ -32,11 +32,11 @@ std::int64_t digest_of(std::span<const std::uint8_t> bytes) {
 }
 
 constexpr double kTolerance = 1e-9;
-// What the structure of a joint damps at least whose damping nobody knows, of critical damping: without it nothing would be stable to the
-// last digit.
+// Assumed share of critical damping for a joint whose damping is unknown: the least that a structure has. Without damping no loop
+// would be strictly stable.
 constexpr double kStructuralDamping = 0.01;
 
-// No cell of the box proves what anti-windup takes of these gains.
+// Checks what anti-windup assumes of these gains; the proof of the box's cells does not cover it.
 TableVerdict judge_antiwindup(const FeedbackGains& gains, const PlantIdentity& plant) {
   if (gains.has_integrator == 0 || proves_slow_part(gains, plant)) return {};
   return {
@@ -46,7 +46,7 @@ TableVerdict judge_antiwindup(const FeedbackGains& gains, const PlantIdentity& p
           "with strainwave-design gains"};
 }
 
-// Over the slopes, the extremes of viscous friction, and every gain.
+// The worst corner of the spring's stiffnesses, the extremes of viscous friction, and all gains.
 WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
   const std::vector<GainRow> gains = gains_of(table);
   const double most_viscous_Nms_rad = table.friction.largest_viscous_Nms_rad();
@@ -68,7 +68,7 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
   return worst;
 }
 
-// On a flexible joint.
+// Refuses gains that are unstable on this flexible joint.
 TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint) {
   const WorstCorner worst = worst_on_spring(table, *joint.link, loop_of(table, joint.delay_periods));
   if (worst.radius < 1.0) return {};
@@ -84,7 +84,7 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
   return {Reason::kTableNotCertified, text.str()};
 }
 
-// Whether the joint is one of those that the table is for.
+// Checks that the table is designed for a joint like this.
 TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) {
   if (const auto mismatch = find_identity_mismatch(
           table, joint.plant,
@@ -95,15 +95,15 @@ TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) 
                                         ": this joint's encoder is on the " + to_text(joint.encoder_side) +
                                         ": design the table with --encoder-side " +
                                         to_text(joint.encoder_side)};
-  // A drive that closes its own loop needs no proof of this one.
+  // A drive that closes its own loop needs no proof of the daemon's loop.
   if (!joint.law_acts) return {};
   if (const auto outside = find_outside_box(table, joint.link, joint.delay_periods))
     return {Reason::kTableIdentity, *outside};
   return {};
 }
 
-// The smaller of the two holds. Certified is what happens below it, so that a smaller one takes no proof away; it may take the torque
-// that the cold joint's friction needs.
+// The smaller of the two limits applies. The certificate holds for torque below the limit, so a smaller limit keeps it valid. It may,
+// however, be below the torque that the cold joint's friction needs.
 std::string which_torque_limit_holds(const GainTable& table, double torque_limit_Nm) {
   if (std::abs(table.torque_limit_Nm - torque_limit_Nm) <= kTolerance * torque_limit_Nm) return "";
   const bool lowered = torque_limit_Nm < table.torque_limit_Nm;
@@ -120,7 +120,7 @@ std::string which_torque_limit_holds(const GainTable& table, double torque_limit
   return text.str();
 }
 
-// That its friction is an estimate, for one.
+// For example, that its friction is an estimate.
 std::string note_of(const GainTable& table) {
   const std::string_view note = table.provenance.note.view();
   return note.empty() ? "" : "; " + std::string(note);
@@ -161,7 +161,7 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
     return {Reason::kAccepted,
             "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +
                 note_of(table)};
-  // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
+  // A rigid joint is judged with its own inertia. A flexible joint lies in a box of inertias; the table's design inertia counts then.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
   TableVerdict verdict = judge_antiwindup(table.primary, plant);
   if (verdict.reason != Reason::kAccepted) return verdict;

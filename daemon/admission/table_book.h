@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of a joint's table slots is in use: the supervisor's side of a live table swap. Not real-time.
+// Tracks which of a joint's table slots are in use: the supervisor's side of a live table swap. Not real-time.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves tables' boxes in a thread of its own: a proof may take seconds, in which the supervisor goes on obeying stops. One table at
-// a time. Not real-time.
+// Proves the boxes of tables in a separate thread: a proof may take seconds, and the supervisor must obey stops meanwhile. One table
+// at a time. Not real-time.
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,7 @@ namespace strainwave {
 
 class TableProver {
  public:
-  /// The order of a table, and what became of its box.
+  /// The order of a table, and the verdict on its box.
   struct Proved {
     Verdict order;
     TableVerdict box;
@@ -28,13 +28,13 @@ class TableProver {
   TableProver(const TableProver&) = delete;
   TableProver& operator=(const TableProver&) = delete;
 
-  /// Begins the thread; what is handed over before waits for it.
+  /// Starts the thread; an order that was handed over earlier waits for it.
   void start();
 
-  /// Takes the order of a table over. False, and nothing is taken, until the one before it was taken back.
+  /// Accepts a table's order. Returns false, and leaves `order` alone, until take() has returned the previous one.
   bool hand_over(Verdict& order);
 
-  /// The order whose box was judged, or nothing yet.
+  /// Returns the order whose box was judged; nothing while there is none.
   std::optional<Proved> take();
 
  private:

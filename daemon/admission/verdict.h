@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What admission answers: the two ways to say no, and the message's bytes. Not real-time.
+// Helpers of admission: verdicts that refuse, repeat or discard a message, and access to its bytes. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace strainwave {
 
-/// Of a message as the gateway wrote it, whatever it says of its size.
+/// The bytes of a message that the gateway wrote. Its stated size is not trusted.
 inline std::span<const std::uint8_t> payload(const WireMessage& message) {
   return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
 }
 
-/// Answered with why.
+/// A refusal, answered with its reason.
 inline Verdict refuse(const Requester& requester, Reason reason, const std::string& text) {
   Verdict verdict;
   verdict.kind = Verdict::Kind::kRefuse;
@@ -26,7 +26,7 @@ inline Verdict refuse(const Requester& requester, Reason reason, const std::stri
   return verdict;
 }
 
-/// Answered as it was before.
+/// A resend, answered as before.
 inline Verdict repeat(const Requester& requester) {
   Verdict verdict;
   verdict.kind = Verdict::Kind::kRepeat;

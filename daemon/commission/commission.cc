@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// To either side of where the joint stands, and of the planned motion: those of the study of this motion (tests/commission/study.cc).
+// Largest way to either side of the start, and largest planned acceleration. Values of the study of this motion (tests/commission/study.cc).
 constexpr double kMostWay_rad = 0.7;
 constexpr double kMostAcceleration_rad_s2 = 3.0;
 
@@ -68,7 +68,7 @@ void require_commissionable(const JointConfig& joint) {
                          " is allowed, the repeated peak torque of " + gear.name);
 }
 
-/// Of a real joint.
+/// Preconditions for commissioning a real joint.
 void require_watched(const DaemonConfig& config, const Interruption& interruption) {
   if (!interruption.has_terminal())
     throw InputError(

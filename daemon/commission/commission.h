@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `strainwaved --commission JOINT`: moves one joint of a configuration to learn what it is. It needs no gain table. Not real-time.
+// `strainwaved --commission JOINT`: moves one joint of a configuration to measure its properties. Needs no gain table. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace strainwave {
 
-/// What of `config` commissioning needs of joint `index`; where it stands is left open. Throws InputError for a joint that cannot be
-/// commissioned: rigid, homed, measured at its link, or with a drive that closes its own loop.
+/// The settings in `config` that commissioning needs for joint `index`, except its start position. Throws InputError for an unsuitable
+/// joint, such as one that is rigid, must be homed, is measured at its link, or has a drive that closes its own loop.
 CommissioningConfig commissioning_config(const DaemonConfig& config, std::size_t index);
 
-/// Runs all steps, a line before and after each on `out`, and writes commission.json into `directory` after each. kDone: all is as
-/// configured; kRefused: a step failed, and its line says why; kInterrupted. Throws InputError before anything moves.
+/// Runs all steps, prints a line before and after each to `out`, and writes commission.json into `directory` after each. Returns kDone;
+/// kRefused if a step failed, whose line says why; or kInterrupted. Throws InputError only before any motion.
 ExitStatus commission_joint(const DaemonConfig& config, const std::filesystem::path& config_file,
                             const std::string& joint, const std::filesystem::path& directory,
                             std::ostream& out);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kLook_ms = 20;
 constexpr int kFirstPosition_ms = 5000;
-constexpr int kSimulatedPeriods = 2000;  // between two looks at what interrupts
-constexpr int kDisablingPeriods = 500;   // most that a drive is waited for
+constexpr int kSimulatedPeriods = 2000;  // between two checks for an interruption
+constexpr int kDisablingPeriods = 500;   // time for the drives to disable
 
 void sleep_ms(int duration_ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms));
@@ -77,7 +77,7 @@ void CommissionLoop::period(std::int64_t now_ns, std::int64_t skipped) noexcept 
       if (reading.has_position) positioned_.store(true, std::memory_order_release);
       if (moved != nullptr) {
         if (const char* const why = interruption_.exchange(nullptr)) moved->abort(why);
-        // A trace with a gap shows nothing.
+        // A trace with a gap cannot be evaluated.
         if (skipped > 0)
           moved->abort("the loop came too late for a period: real time is needed (docs/performance.md)");
         command = moved->step(reading);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a commissioning with the drives of a configuration. Simulated joints take as long as the computer needs; others have a
-// real-time thread of their own, which keeps the buses alive between the steps, too. The other joints stay disabled.
+// Runs a commissioning with the drives of a configuration. Simulated joints run as fast as the computer allows. Real joints have a
+// real-time thread, which also keeps the buses alive between the steps. The other joints stay disabled.
 #pragma once
 
 #include <atomic>
@@ -18,19 +18,19 @@ class CommissionLoop {
  public:
   /// `joint`: index in `parts`. Throws InputError where real time is refused and `config` enforces it.
   CommissionLoop(const LoopConfig& config, LoopParts parts, std::size_t joint, bool simulated);
-  /// Disables, and leaves the drives in order.
+  /// Disables the drives and closes the buses.
   ~CommissionLoop();
   CommissionLoop(const CommissionLoop&) = delete;
   CommissionLoop& operator=(const CommissionLoop&) = delete;
 
-  /// Where the joint stands. Throws NotAchieved where the drive sends no position within 5 s, or has a fault.
+  /// Position of the joint. Throws NotAchieved if the drive sends no position within 5 s, or has a fault.
   double first_position_rad();
-  /// Until the step of `commissioning` moves nothing any more. What interrupts it ends it, and is returned.
+  /// Runs until the step of `commissioning` ends its motion. An interruption aborts the step; returns its text, or null without one.
   const char* run(Commissioning& commissioning, Interruption& interruption);
 
-  /// Lines about the drives since the last call.
+  /// Messages of the buses since the last call.
   std::vector<std::string> take_messages();
-  /// Why there is no real time; empty: there is, or none is needed.
+  /// Why real time was refused; empty: it was granted, or is not needed.
   const std::string& real_time_refusal() const { return refusal_; }
 
  private:
@@ -46,8 +46,8 @@ class CommissionLoop {
   std::string refusal_;
   std::atomic<Commissioning*> moved_{nullptr};              ///< null: all drives are disabled
   std::atomic<const char*> interruption_{nullptr};          ///< to be passed to moved_
-  std::atomic<bool> positioned_{false};                     ///< a position has come
-  std::atomic<double> position_rad_{0.0};                   ///< the last one
+  std::atomic<bool> positioned_{false};                     ///< a position has arrived
+  std::atomic<double> position_rad_{0.0};                   ///< the last position
   std::atomic<ActuatorFault> fault_{ActuatorFault::kNone};  ///< of the last reading
   std::atomic<bool> set_up_{false};
   std::atomic<bool> may_run_{false};

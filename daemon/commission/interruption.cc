@@ -18,7 +18,7 @@ Interruption::Interruption() : parent_(::getppid()) {
   termios terminal{};
   if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &terminal) != 0) return;
   before_ = terminal;
-  // Every key is one that ends the motion: Ctrl-C, Ctrl-S and Ctrl-Z, too.
+  // Every key must end the motion, also Ctrl-C, Ctrl-S and Ctrl-Z.
   terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG | IEXTEN);
   terminal.c_iflag &= ~static_cast<tcflag_t>(IXON);
   ::tcsetattr(STDIN_FILENO, TCSANOW, &terminal);
@@ -34,7 +34,7 @@ const char* Interruption::wait(int timeout_ms) noexcept {
   if (::poll(descriptors.data(), before_ ? 2 : 1, timeout_ms) <= 0) return nullptr;
   if (signals_.take()) return "interrupted by a signal";
   char key = 0;
-  // A terminal that is gone is as good as a key.
+  // A lost terminal interrupts like a key.
   if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "interrupted: the terminal is gone";
   if ((descriptors[1].revents & POLLIN) != 0 && ::read(STDIN_FILENO, &key, 1) >= 0)
     return key == kControlC ? "interrupted by Ctrl-C" : "interrupted by a key";

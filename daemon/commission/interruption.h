@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ends a program that a user watches: a signal, or any key where standard input is a terminal. Not real-time.
+// Detects what ends a watched program: a signal, its parent's end, or any key if standard input is a terminal. Not real-time.
 #pragma once
 
 #include <sys/types.h>
@@ -13,20 +13,20 @@ namespace strainwave {
 
 class Interruption {
  public:
-  /// Make it before any thread starts, as EndSignals. A terminal gives each key at once until the end. Throws std::system_error.
+  /// Construct it before any thread starts, like EndSignals. Until its end a terminal delivers each key at once. Throws std::system_error.
   Interruption();
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// Waits for at most so long; what came, in words, or null. A constant text.
+  /// Waits at most `timeout_ms`. Returns a constant text about the interruption, or null.
   const char* wait(int timeout_ms) noexcept;
   bool has_terminal() const noexcept { return before_.has_value(); }
 
  private:
   EndSignals signals_;
-  ::pid_t parent_;                 ///< that began this program
-  std::optional<termios> before_;  ///< of the terminal; nothing: standard input is none
+  ::pid_t parent_;                 ///< started this program
+  std::optional<termios> before_;  ///< settings of the terminal; none: standard input is no terminal
 };
 
 }  // namespace strainwave

@@ -26,7 +26,7 @@ constexpr double kMaxRecorder_MB = 1024.0;
 // A loop that is late in every cycle misses at least as many periods as it keeps.
 constexpr double kShareOfLateLoop = 0.5;
 
-/// Of this machine.
+/// Highest processor number of this machine.
 std::int64_t last_processor() {
   return std::max(1L, ::sysconf(_SC_NPROCESSORS_CONF)) - 1;
 }
@@ -53,7 +53,7 @@ LoopConfig read_loop(TomlSection& section) {
   return loop;
 }
 
-// systemd's StateDirectory=, the first if there are several; empty: there is none.
+// Returns the first folder of systemd's StateDirectory=; empty: there is none.
 std::filesystem::path service_state_directory() {
   const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (state == nullptr) return {};
@@ -86,7 +86,7 @@ RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& f
   return recorder;
 }
 
-// Names of groups become numbers, which the loop compares.
+// Replaces the names of groups by numbers, which the loop compares.
 void number_groups(std::vector<JointConfig>& joints) {
   std::vector<std::string> groups;
   for (JointConfig& joint : joints) {
@@ -119,7 +119,7 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
                              const std::vector<JointConfig>& joints, const std::filesystem::path& folder) {
   SecurityPolicy security;
   security.lease_s = section.number_or("lease_s", security.lease_s, {0.1, 3600.0});
-  // An order quotes what a state has told: it lives for a second beyond the time between two states.
+  // An order quotes the challenge of a state. It stays valid for a second more than the interval between two states.
   security.order_lifetime_cycles =
       std::llround((kOrderLifetime_s + 1.0 / loop.state_rate_Hz) / loop.period_s);
   security.unsigned_allowed = section.choice_or("unsigned_orders", "refuse", {"refuse", "allow"}) == "allow";
@@ -128,7 +128,7 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
   if (security.unsigned_allowed && !simulated)
     section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may take unsigned orders");
   const std::string keys = section.text_or("authorized_keys", "");
-  section.refuse_unknown_keys();  // first: what is missing may be there under another name
+  section.refuse_unknown_keys();  // first: a missing key may be there under a wrong name
   if (section.has("authorized_keys"))
     security.keys = read_authorized_keys(credential_or_file(folder / keys));
   else if (!security.unsigned_allowed)
@@ -187,7 +187,7 @@ DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use) {
   if (use == ConfigUse::kRun)
     config.security = read_security(security, config.loop, config.joints, path.parent_path());
   root.throw_errors();
-  // Who can write this file decides what its joints do.
+  // Every user with write access to this file controls its joints.
   for (const JointConfig& joint : config.joints) require_protected(path, writers_allowed(joint));
   config.warnings = root.warnings();
   if (const auto exposure = find_exposure(path, Writers::kNobody))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The configuration file of strainwaved: TOML, read once at start, strict. A value that exists is valid. Not real-time.
+// Reads the configuration file of strainwaved (TOML) once at start. Unknown keys are errors, and all values in it are valid. Not real-time.
 // docs/configuration.md lists every key.
 #pragma once
 
@@ -25,12 +25,12 @@
 
 namespace strainwave {
 
-/// What ActuatorReading::drive_error says with `fault`, in words.
+/// Explains ActuatorReading::drive_error, which came with `fault`, in words.
 using DriveErrorText = std::string (*)(Fault fault, std::uint32_t drive_error);
 
 struct SimulatedDrive {
   SimulatedActuatorConfig actuator;
-  FaultyActuatorConfig faults;  ///< that it is given
+  FaultyActuatorConfig faults;  ///< injected into the drive
 };
 
 /// A drive is configured with its bus.
@@ -46,18 +46,17 @@ struct JointConfig {
   std::string driver;
   std::string group;  ///< name of the joints that stop together; empty: none
   bool takes_injected_faults = false;
-  std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
-  std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
+  std::string driver_resource;  ///< resource that only one daemon may use ("can0 node 3"); empty: none
+  std::optional<TemperatureFileConfig> thermometer;  ///< sensor in addition to the drive's own
   std::variant<SimulatedDrive, GpioJointConfig, DriveOnBus> drive;
-  DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
+  DriveErrorText drive_error_text = nullptr;  ///< null: the drive has no error numbers
   std::filesystem::path table;                ///< initial gain table; empty: none
-  bool motor_inertia_assumed = false;         ///< it is not in the file (ConfigUse::kCommission)
+  bool motor_inertia_assumed = false;         ///< not in the file (ConfigUse::kCommission)
   bool load_inertia_assumed = false;
-  std::string
-      table_place;  ///< where the file names it, for messages: "arm.toml:14: joint[0].table = "t.json""
+  std::string table_place;  ///< place in the file, for messages: "arm.toml:14: joint[0].table = "t.json""
 };
 
-/// What several joints share.
+/// A bus that several joints share.
 struct BusConfig {
   std::string name;
   CanBusConfig config;
@@ -70,23 +69,23 @@ struct DaemonConfig {
   std::string prefix;
   std::string lcm_url;
   GatewayUser gateway_user;
-  std::string gateway_socket;  ///< where the service manager starts gateways; empty: the daemon does
-  std::filesystem::path state_directory;  ///< where learned friction is kept; empty: nowhere
+  std::string gateway_socket;  ///< socket where the service manager starts gateways; empty: the daemon does
+  std::filesystem::path state_directory;  ///< folder for learned friction; empty: not kept
   SecurityPolicy security;
   std::vector<BusConfig> buses;
   std::vector<JointConfig> joints;
-  std::vector<std::string> warnings;  ///< what the file may say and yet rarely means (config_doubts.h)
+  std::vector<std::string> warnings;  ///< values that are probably wrong (config_doubts.h)
 };
 
-/// Who besides root and our own user may write what decides about `joint`: the configuration and its table.
+/// Returns which users, in addition to root and our own user, may write the configuration and the table of `joint`.
 Writers writers_allowed(const JointConfig& joint);
 
-/// What a configuration is read for: only who runs it needs to know who may give orders. A joint with a gear that is to be commissioned
-/// may be without its inertias: the wave generator's is assumed, for motor and load each.
+/// Purpose of reading a configuration. Only kRun reads the security settings. With kCommission a joint with a catalogue gear may lack
+/// its inertias: the motor then gets the inertia of the wave generator, and the load gets the motor's.
 enum class ConfigUse : std::uint8_t { kRun, kCheckDrives, kCommission };
 
-/// Reads `path`. Throws InputError with a line for each error, naming file, line, key, value and what is allowed: unreadable or
-/// malformed file, unknown, missing or repeated keys, impossible values, joints of the same name.
+/// Reads `path`. Throws InputError for an unreadable or malformed file, unknown, missing or repeated keys, impossible values, and joints
+/// of the same name. Each error has a line with file, line, key, value and what is allowed.
 DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use = ConfigUse::kRun);
 
 }  // namespace strainwave

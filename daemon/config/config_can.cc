@@ -21,9 +21,9 @@ namespace {
 constexpr std::int64_t kMaxNodeId = 127;
 constexpr std::int64_t kMaxObject = 0xFFFF;
 constexpr std::int64_t kMaxSubIndex = 0xFF;
-/// Where none is given: between the 8 kHz and the 2.5 kHz of usual drives. At 8 kHz no worse than none (strainwave-sim own-loop).
+/// Default: 4 kHz, between the 8 kHz and the 2.5 kHz of usual drives. At 8 kHz it is no worse than 0 (strainwave-sim own-loop).
 constexpr double kUsualDriveLoop_s = 0.00025;
-/// Of 1016h and 1017h, in milliseconds; 1017h has 16 bits.
+/// Objects 1016h and 1017h hold milliseconds; 1017h has 16 bits.
 constexpr Range kHeartbeat_s{0.001, 60.0};
 
 cia402::Identity read_identity(TomlSection section) {
@@ -182,7 +182,7 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   joint.drive = DriveOnBus{static_cast<std::size_t>(&bus - buses_.data()), bus.drives.size()};
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
   bus.node_ids.push_back(node_id);
-  // The protocols' identifiers overlap, so a bus has one of them: CiA 402 needs a SYNC, CANSimple has none.
+  // The identifiers of the two protocols overlap, so a bus has only one protocol. CiA 402 needs a SYNC, CANSimple has none.
   if (is_odrive) {
     if (bus.config.sync != SyncProducer::kNone)
       section.fail("protocol", "a bus of their own is what ODrives need: set can_bus.sync to \"none\"");
@@ -212,7 +212,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   bus.has_sync_drive = bus.has_sync_drive || drive.produces_sync;
   drive.our_heartbeat_timeout_s = section.number_or(
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
-  // A longer absence of the loop is a fault. The entry holds milliseconds, at most 65535.
+  // A longer absence of the loop is a fault. The object 1400h:05 holds milliseconds, at most 65535.
   drive.command_deadline_s = std::clamp(std::ceil(stall_s_ * 1e3) * 1e-3, 1e-3, 65.0);
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
@@ -235,13 +235,13 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   controller.motor = read_motor(section.section("motor"), joint, drive);
   doubt_drive(section, joint, drive);
   controller.encoder_resolution_rad = kTurn_rad / drive.units.counts_per_output_revolution;
-  // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
+  // The drive samples its position at the last SYNC, and an order acts from the next SYNC on: one period of dead time.
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 1, kMaxControlDelay));
   drive.delay_periods = controller.delay_periods;
   joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) {
     return cia402::drive_error_text(drive_error);
   };
-  (void)cia402::pdo_layout(drive);  // refuses what does not fit
+  (void)cia402::pdo_layout(drive);  // throws if the objects do not fit
   bus.drives.emplace_back(drive);
   return {drive.inputs.home, drive.inputs.negative_limit, drive.inputs.positive_limit,
           drive.inputs.index != cia402::ProbeSource::kNone, !drive.absolute_encoder};

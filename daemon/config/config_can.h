@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [[can_bus]] and [joint.can] of the configuration: drives on CAN buses. Not real-time.
+// Reads [[can_bus]] and [joint.can] of the configuration: drives on CAN buses. Not real-time.
 #pragma once
 
 #include <string>
@@ -15,15 +15,14 @@ namespace strainwave {
 /// The buses of a configuration file and the drives on them.
 class CanConfig {
  public:
-  /// Reads every [[can_bus]]; there may be none. Drives miss their orders after `stall_s`. Throws InputError.
+  /// Reads every [[can_bus]]; there may be none. `stall_s` becomes the drives' deadline for orders. Throws InputError.
   CanConfig(TomlSection& root, double period_s, double stall_s);
 
-  /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Returns what the joint can be homed
-  /// by. Throws InputError.
+  /// Reads [joint.can]: adds the drive to its bus, and sets the values that depend on the driver. Returns the inputs for
+  /// homing. Throws InputError.
   HomingInputs read_joint(TomlSection& section, JointConfig& joint);
 
-  /// After all joints: the buses. Throws InputError for a bus without joints, or one that would be
-  /// too full.
+  /// Returns the buses; call it after all joints. Throws InputError for a bus without joints, or with too much traffic.
   std::vector<BusConfig> buses() const;
 
  private:
@@ -32,7 +31,7 @@ class CanConfig {
     TomlSection section;
     CanBusConfig config;
     bool drive_makes_sync = false;  ///< sync = "drive"
-    std::vector<int> node_ids;      ///< of the drives so far
+    std::vector<int> node_ids;      ///< of the drives read so far
     std::vector<CanDrive> drives;
     bool has_sync_drive = false;
   };

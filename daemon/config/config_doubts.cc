@@ -19,22 +19,22 @@ namespace strainwave {
 namespace {
 
 constexpr double kRadianPerDegree = kTurn_rad / 360.0;
-// Of errors and margins: a sixth of a turn is no small angle.
+// Largest usual error limit or margin: about a sixth of a turn.
 constexpr double kLargeError_rad = 1.0;
 // The fastest input of a strain-wave gear: CSF-8 to CSF-14 with oil.
 constexpr double kFastestInput_rad_s = 14000.0 / 60.0 * kTurn_rad;
-// Above this many times its speed limit a joint runs away rather than overshoots.
+// Above this multiple of its speed limit, a joint does not just overshoot: it runs away.
 constexpr double kLargeOverspeed = 2.0;
-// What a joint does on its own over a longer absence of the loop is no small thing.
+// During a longer absence of the loop, a joint can move far without control.
 constexpr double kLongAbsence_s = 0.1;
-// To full speed, or half a turn: a robot's joint needs tenths of a second. Beyond these it practically stands.
+// Longest usual times to full speed, and for half a turn. A robot's joint needs tenths of a second; beyond these it hardly moves.
 constexpr double kSlowStart_s = 2.0;
 constexpr double kSlowTurn_s = 120.0;
-// Half of a decimal place, in decades: beyond it a tenth is nearer to what fits.
+// Half a decade, sqrt(10): beyond this factor, a tenth of the value is nearer to the largest possible one.
 constexpr double kMisplacedPoint = 3.16;
-// No motor bears more; in degrees Fahrenheit it is 49 degC, a usual limit.
+// No motor withstands more. 120 degrees Fahrenheit are 49 degC, a usual limit.
 constexpr double kHottest_C = 120.0;
-// Of the torque limit, when friction and gravity are overcome: what is left for motion.
+// Least share of the torque limit that friction and gravity must leave for motion.
 constexpr double kLeastSpare = 0.1;
 
 std::string rounded(double value) {
@@ -44,7 +44,7 @@ std::string rounded(double value) {
   return text.str();
 }
 
-// Limits with which the joint practically does not move, each by itself.
+// Warns of each limit that keeps the joint from practically moving at all.
 void doubt_motion(const TomlSection& section, const JointLoopConfig& loop) {
   const double speed_rad_s = loop.controller.motion.velocity_rad_s;
   const double way_rad =
@@ -115,11 +115,11 @@ void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
       rounded(controller.torque_limit_Nm / inertia_kgm2) +
       " rad/s2, never acceleration_rad_s2 = " + number_text(controller.motion.acceleration_rad_s2) +
       ": motions take what the torque allows and last longer than that limit promises";
-  // Of two inertias the larger is doubted.
+  // If there are two inertias, the larger one is in doubt.
   const double motor_kgm2 = controller.link ? controller.link->motor_inertia_kgm2 : 0.0;
   const double doubted_kgm2 = std::max(motor_kgm2, inertia_kgm2 - motor_kgm2);
   const double spare_kgm2 = most_kgm2 - (inertia_kgm2 - doubted_kgm2);
-  // A misplaced decimal point is off by ten at least; less is a limit that is set too high.
+  // A misplaced decimal point means a factor of at least ten. A smaller excess means that a limit is too high.
   double likely_kgm2 = doubted_kgm2 / 10.0;
   while (spare_kgm2 > 0.0 && likely_kgm2 > spare_kgm2) likely_kgm2 /= 10.0;
   if (spare_kgm2 > 0.0 && inertia_kgm2 > kMisplacedPoint * most_kgm2)
@@ -160,7 +160,7 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
 }
 
 void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder) {
-  // The nearest that is there decides.
+  // The nearest folder above that exists decides.
   std::filesystem::path there = std::filesystem::absolute(folder).lexically_normal();
   std::error_code error;
   while (!std::filesystem::exists(std::filesystem::symlink_status(there, error)) && there.has_relative_path())

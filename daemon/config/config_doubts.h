@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a configuration may say and yet rarely means: degrees where radians are asked for, a supervision that is switched off. It is
-// not refused, since some joint may want it; the daemon says so at its start, and strainwaved --check. Not real-time.
+// Finds values that are allowed but probably wrong: degrees in place of radians, or a supervision that is switched off. They stay
+// valid, since some joint may need them. The daemon at its start and strainwaved --check warn of them. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -17,29 +17,29 @@
 
 namespace strainwave {
 
-/// Notes a doubt when the angle that `key` gives is larger than it usually is, of a position a turn: it may be meant in degrees.
+/// Warns that the angle of `key` may be in degrees if it exceeds `usual_rad`. The default, a turn, suits positions.
 void doubt_angle(const TomlSection& section, std::string_view key, double angle_rad,
                  double usual_rad = kTurn_rad);
 
-/// What a limit is in degrees Celsius that no motor bears: "; if degrees Fahrenheit are meant, write 70". Else nothing.
+/// Returns "; if degrees Fahrenheit are meant, write 70" for a limit that no motor withstands, else an empty text.
 std::string fahrenheit_hint(double limit_C);
 
-/// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
+/// Checks [joint.limits], already read into `loop`, of a joint with this gear ratio.
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
 
-/// Of [[joint]]: an inertia that the torque limit can never accelerate as acceleration_rad_s2 has it.
+/// Warns of an inertia in [[joint]] that the torque limit cannot accelerate with acceleration_rad_s2.
 void doubt_inertia(const TomlSection& section, const JointConfig& joint);
 
-/// Of a joint's torque limit, the smaller of configuration and table: where the table's friction and the configured gravity leave so little
-/// of it that the joint hardly moves or does not move at all.
+/// Checks a joint's torque limit, the smaller of configuration and table. Returns a warning if the table's friction and the configured
+/// gravity leave so little of it that the joint hardly moves or does not move at all.
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 
-/// Of [daemon], already read into `loop`.
+/// Checks [daemon], already read into `loop`.
 void doubt_loop(const TomlSection& section, const LoopConfig& loop);
 
-/// Of the folder that `key` names, which is made when something is written: that this user cannot make it or write into it; or that
-/// other users can, too.
+/// Checks the folder that `key` names, which the daemon creates at the first write. Warns if this user cannot create it or write into
+/// it, or if other users can write into it.
 void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder);
 
 }  // namespace strainwave

@@ -67,7 +67,7 @@ PwmConfig read_pwm(TomlSection section) {
   return pwm;
 }
 
-// The keys are of the motor's own shaft; what comes out is at the joint.
+// The keys refer to the motor's own shaft, the result to the joint side.
 MotorData read_motor(TomlSection section, double gear_ratio) {
   MotorData motor = read_motor_constants(section).at_joint(gear_ratio);
   motor.torque_constant_Nm_A *= section.number_or("efficiency", 1.0, {0.01, 1.0});
@@ -77,7 +77,7 @@ MotorData read_motor(TomlSection section, double gear_ratio) {
   return motor;
 }
 
-// What `motor` can do with this amplifier.
+// Returns the limits of `motor` with this amplifier.
 MotorLimits read_amplifier(TomlSection section, MotorData motor, GpioJointConfig& gpio) {
   TorqueOutputConfig& torque = gpio.torque;
   const bool voltage = section.choice("kind", {"current", "voltage"}) == "voltage";
@@ -108,7 +108,7 @@ MotorLimits read_amplifier(TomlSection section, MotorData motor, GpioJointConfig
   return torque.motor;
 }
 
-/// For the loop to take hold of the joint, a few of its periods at any rate.
+/// Time for the loop to hold the joint before the brake opens: several periods of a usual loop.
 constexpr double kHoldDelay_s = 0.02;
 
 void read_brake(TomlSection section, GpioJointConfig& gpio) {
@@ -123,7 +123,7 @@ void read_brake(TomlSection section, GpioJointConfig& gpio) {
   section.refuse_unknown_keys();
 }
 
-// Joint's counts per radian; sets the rest of the encoder.
+// Reads the encoder into `gpio`. Returns the counts per radian of the joint.
 double read_encoder(TomlSection section, double period_s, const JointConfig& joint, GpioJointConfig& gpio) {
   const double counts_per_turn = section.number("counts_per_motor_revolution", {1.0, 1e9});
   const double counts_per_rad = counts_per_turn * joint.plant.gear_ratio / kTurn_rad;

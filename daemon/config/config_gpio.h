@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [joint.gpio]: a bare motor behind amplifier, encoder and digital lines. Not real-time.
+// Reads the keys of [joint.gpio]: a bare motor with amplifier, encoder and digital lines. Not real-time.
 // docs/gpio.md explains them.
 #pragma once
 
@@ -9,9 +9,8 @@
 
 namespace strainwave {
 
-/// Reads the section and sets what depends on the driver: the drive, and the encoder and
-/// motor data of the controller. `where` is the section's path in messages. What the joint can be homed by.
-/// Throws InputError.
+/// Reads the section and sets the values that depend on the driver: the drive, and the encoder and motor data of the
+/// controller. `where` is the section's path in messages. Returns the inputs for homing. Throws InputError.
 HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,
                               JointConfig& joint);
 

@@ -7,9 +7,9 @@ namespace strainwave {
 
 namespace {
 
-/// Of the joint's speed limit, where the configuration does not say: 60 urad of a joint of 6 rad/s in a period of 1 ms.
+/// Default homing speed, as a share of the joint's speed limit. A joint of 6 rad/s moves 60 urad in a period of 1 ms.
 constexpr double kSpeedShare = 0.01;
-/// Against a mechanical stop: the law pushes harder while the joint is seen to stand.
+/// The same against a mechanical stop, where the controller pushes harder until it detects the standstill.
 constexpr double kStopSpeedShare = 0.005;
 
 HomingTarget target_of(TomlSection& section, bool negative, const HomingInputs& available) {
@@ -71,7 +71,7 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   homing.speed_rad_s = section.number_or("speed_rad_s", share * speed_rad_s, {1e-6, speed_rad_s});
   homing.travel_rad =
       section.number_or("travel_rad", 1.1 * (within_limits.max - within_limits.min), {1e-6, 1e4});
-  // To one end of the travel, to the other, and back.
+  // Long enough to go to one end of the travel, to the other end, and back.
   homing.timeout_s = section.number_or(
       "timeout_s", std::min(3600.0, 4.0 * homing.travel_rad / homing.speed_rad_s), {0.01, 3600.0});
   section.refuse_unknown_keys();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [joint.homing] of the configuration, see docs/configuration.md. Not real-time.
+// Reads [joint.homing] of the configuration, see docs/configuration.md. Not real-time.
 #pragma once
 
 #include "base/toml_section.h"
@@ -7,17 +7,17 @@
 
 namespace strainwave {
 
-/// What a driver can look for.
+/// Inputs that a driver offers for homing.
 struct HomingInputs {
   bool home = false;
   bool negative_limit = false;
   bool positive_limit = false;
   bool index = false;
-  bool counts_from_switch_on = false;  ///< positions mean nothing before the joint is homed
+  bool counts_from_switch_on = false;  ///< positions are meaningless before the joint is homed
 };
 
-/// Reads the section into `joint`, whose limits are known. Throws InputError, also when the driver lacks what
-/// is looked for.
+/// Reads the section into `joint`; read its limits first. Throws InputError, also if the driver lacks the input
+/// that homing needs.
 void read_homing(TomlSection section, const HomingInputs& available, JointConfig& joint);
 
 }  // namespace strainwave

@@ -19,7 +19,7 @@ namespace strainwave {
 namespace {
 
 constexpr Range kAnyAngle{-1e4, 1e4};
-// Below the limit, of a joint that is given no derating_C.
+// Default of derating_C: this far below the temperature limit.
 constexpr double kDerates_C = 10.0;
 
 void read_limits(TomlSection& section, double gear_ratio, JointLoopConfig& loop) {
@@ -58,7 +58,7 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   check.max_step_C = section.number_or("max_step_C", check.max_step_C, {1e-3, 300.0});
   check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
   check.loss_is_fault = section.choice_or("on_loss", "keep", {"keep", "fault"}) == "fault";
-  // What is above max_C is not believed: the limit must be reached before.
+  // Readings above max_C are rejected, so the temperature limit must be below max_C.
   if (loop.limits.temperature_limit_C >= check.max_C)
     section.note_error(section.place("max_C") + ": a temperature above joint.limits.temperature_limit_C = " +
                        number_text(loop.limits.temperature_limit_C) +
@@ -91,7 +91,7 @@ void read_control(TomlSection section, JointLoopConfig& loop) {
   section.refuse_unknown_keys();
 }
 
-// The name under which tables are made for the joint.
+// Reads the model name that the joint's gain tables must carry.
 FixedString<32> read_joint_model(TomlSection& section) {
   const std::string model = section.text("joint_model");
   const bool printable = std::all_of(model.begin(), model.end(), [](char c) { return c >= ' ' && c <= '~'; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One [[joint]] of the configuration. Not real-time.
+// Reads one [[joint]] of the configuration. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace strainwave {
 
-/// Reads the section and all below it; paths are relative to `folder`, and a drive on a bus is put on it
-/// in `can`. Throws InputError.
+/// Reads the section and all sections below it. Paths are relative to `folder`; a drive on a bus is added to its
+/// bus in `can`. Throws InputError.
 JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
                        CanConfig& can, ConfigUse use);
 
-/// What may be part of a channel's name. With an empty `fallback` the key is required. Throws InputError.
+/// Reads a name that is valid in a channel's name. With an empty `fallback` the key is required. Throws InputError.
 std::string read_name(TomlSection& section, std::string_view key, std::string fallback);
 
 }  // namespace strainwave

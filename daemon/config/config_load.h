@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// joint.limits.load_Nm and load_notice_Nm: from what load on the joint yields, and from what on there is notice. Not real-time.
+// Reads joint.limits.load_Nm, above which the joint yields, and load_notice_Nm, above which a notice is set. Not real-time.
 #pragma once
 
 #include "base/toml_section.h"
@@ -7,10 +7,10 @@
 
 namespace strainwave {
 
-/// What the load limit of a joint follows from that is given no load_Nm (daemon/realtime/joint/load_limits.h).
+/// Returns the values from which the load limit of a joint without load_Nm is computed (daemon/realtime/joint/load_limits.h).
 UsualLoad usual_load(const JointConfig& joint);
 
-/// Reads both of [joint.limits] into `joint`, of which all else that usual_load() asks for is known. Throws InputError.
+/// Reads both keys of [joint.limits] into `joint`. Read all other values that usual_load() uses first. Throws InputError.
 void read_load_limits(TomlSection& limits, JointConfig& joint);
 
 }  // namespace strainwave

@@ -13,12 +13,12 @@ namespace strainwave {
 
 namespace {
 
-// Of link to motor: a link this light follows its motor as one inertia does, and a motor this light its link.
+// Largest ratio of the link's inertia to the motor's, and the reverse. Beyond it, both move like one inertia.
 constexpr double kLargestRatio = 1e3;
-// Of critical damping: so far the planned motion allows for it (tests/control/motor_plan_test.cc); gears have a tenth of it.
+// Largest share of critical damping that the planned motion compensates (tests/control/motor_plan_test.cc). Gears have a tenth of it.
 constexpr double kMostDamping = 0.5;
 
-// A first slope this far from the catalogue's is that of another gear.
+// A measured K1 that differs from the catalogue's by a larger factor belongs to another gear.
 constexpr double kMostMeasured = 2.0;
 
 constexpr const char* kGearLine =
@@ -38,7 +38,7 @@ void require_model(const TomlSection& joint) {
                  "(of motor and load together)");
 }
 
-// All that is missing, of which the first names the place. `assumed`: inertias may be.
+// Reports all missing keys at once, at the place of the first. With `assumed` the inertias may be missing.
 void require_flexible_keys(const TomlSection& joint, bool assumed) {
   const char* first = nullptr;
   std::string lines;
@@ -66,13 +66,13 @@ TorsionSpring named_spring(TomlSection& joint, PlantIdentity& plant) {
     joint.fail("gear", "a gear of the catalogue is allowed: " + gear_names() +
                            "; for another give stiffness_Nm_rad in its place");
   if (std::abs(gear->ratio - plant.gear_ratio) > 1e-6 * gear->ratio)
-    // What follows is read all the same: all errors of a file are said at once.
+    // Reading goes on, so that all errors of a file are reported at once.
     joint.note_error(joint.place("gear") + ": a gear of joint.gear_ratio = " + number_text(plant.gear_ratio) +
                      " is allowed; that of this one is " + number_text(gear->ratio) +
                      ": set joint.gear_ratio to it if this is the gear");
   plant.gear = FixedString<32>(gear->name);
   if (!joint.has("stiffness_Nm_rad")) return gear->spring;
-  // As measured; the catalogue's says what the other slopes are to it.
+  // The measured K1 scales all slopes of the catalogue's spring alike.
   const double catalogue = gear->spring.stiffness_1_Nm_rad;
   return gear->spring.scaled(
       joint.number("stiffness_Nm_rad", {catalogue / kMostMeasured, catalogue * kMostMeasured}) / catalogue);
@@ -138,7 +138,7 @@ void read_model(TomlSection& section, ConfigUse use, JointConfig& joint) {
   }
 }
 
-// m g l sin(position - zero).
+// The gravity torque is m g l sin(position - zero).
 void read_gravity(TomlSection& control, JointControllerConfig& controller) {
   if (!control.has("gravity_Nm")) {
     if (control.has("gravity_zero_rad"))

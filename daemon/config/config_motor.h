@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [joint.can.motor] and [joint.gpio.motor] that all drives share: what motor and supply leave for torque at speed.
-// Not real-time.
+// Reads the keys of [joint.can.motor] and [joint.gpio.motor] that all drives share. They give the torque that motor and supply
+// can deliver at each speed. Not real-time.
 #pragma once
 
 #include "base/toml_section.h"
@@ -8,15 +8,15 @@
 
 namespace strainwave {
 
-/// At the motor's own shaft.
+/// Constants at the motor's own shaft.
 struct MotorConstants {
   double torque_constant_Nm_A = 0.0;
   double back_emf_Vs_rad = 0.0;
-  /// The same seen from the joint; supply, resistance and peak torque are left open.
+  /// Returns the constants at the joint side; supply, resistance and peak torque keep their defaults.
   MotorData at_joint(double gear_ratio) const;
 };
 
-/// torque_constant_Nm_A, and back_emf_Vs_rad, which equals it unless it is given.
+/// Reads torque_constant_Nm_A, and back_emf_Vs_rad, which equals it by default.
 MotorConstants read_motor_constants(TomlSection& section);
 
 /// Without supply_V and resistance_ohm the peak torque at the joint is the only limit. Throws InputError when only one of the

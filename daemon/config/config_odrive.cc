@@ -44,7 +44,7 @@ void read_units(TomlSection& section, const JointConfig& joint, odrive::UnitConf
   units.gear_ratio = joint.plant.gear_ratio;
 }
 
-// Beside a position stand a velocity and a torque of 16 bits.
+// In position mode the frame also carries a velocity and a torque, each of 16 bits.
 void require_order_fits(TomlSection& section, const JointConfig& joint, odrive::DriveConfig& drive) {
   drive.units.velocity_units_per_turn_s =
       section.number_or("input_vel_scale", drive.units.velocity_units_per_turn_s, {1.0, 1e6});
@@ -92,8 +92,8 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   JointControllerConfig& controller = joint.loop.controller;
   const double counts = section.number("encoder_counts_per_joint_turn", {1.0, 1e10});
   controller.encoder_resolution_rad = kTurn_rad / counts;
-  // Both read the edges of an encoder that is sampled with the loop. This one has its own clock, and its own velocity.
-  // Its own loop takes an order as soon as the frame is there; a law of torque reckons with the longest delay.
+  // The drive's own loop takes an order as soon as the frame arrives, hence 0. The drive samples its encoder by its own clock, so
+  // torque mode assumes the longest delay, one period.
   controller.delay_periods = static_cast<int>(
       section.integer_or("delay_periods", closes_loop(drive.drive_mode) ? 0 : 1, 0, kMaxControlDelay));
   TomlSection motor = section.section("motor");

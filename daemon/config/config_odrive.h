@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [joint.can] with protocol = "odrive". Not real-time.
+// Reads the keys of [joint.can] with protocol = "odrive". Not real-time.
 #pragma once
 
 #include "base/toml_section.h"
@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// Reads the drive, and sets what depends on it: the controller's encoder, delay and motor, the texts of its
-/// errors. Throws InputError.
+/// Reads the drive, and sets the values that depend on it: encoder, delay and motor of the controller, and the
+/// texts of the drive's errors. Throws InputError.
 odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period_s, JointConfig& joint);
 
 }  // namespace strainwave

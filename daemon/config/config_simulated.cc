@@ -42,7 +42,7 @@ TimeProfile read_load(TomlSection& section, const std::filesystem::path& folder)
   }
 }
 
-// What the controller is told of the drive, as with a real one: by default what is true of it.
+// Reads what the controller assumes about the drive, as for a real drive. The defaults are the simulation's true values.
 void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, JointConfig& joint) {
   JointControllerConfig& controller = joint.loop.controller;
   read_encoder_side(section, controller, plant.feedback);
@@ -78,7 +78,7 @@ std::vector<Injection> read_faults(TomlSection& section) {
   return faults;
 }
 
-// What the configuration says of the joint is true of the simulated one, as far as [joint.simulated] does not say otherwise.
+// The simulated joint has the configured inertias and spring by default; [joint.simulated] may override them.
 void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
   plant.joint.inertia_kgm2 = joint.plant.inertia_kgm2;
   const std::optional<LinkModel>& link = joint.loop.controller.link;
@@ -91,14 +91,14 @@ void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
   plant.effects.transmission = transmission;
 }
 
-// Motor and supply are those of the reference joint. Of another nothing is known: it gives what it is ordered.
+// Simulated motor and supply are the reference joint's. For another joint both are unknown, so its motor has no limits.
 bool has_another_motor(const JointConfig& joint, const JointPlantConfig& plant) {
   const std::string_view gear = joint.plant.gear.view();
   return (!gear.empty() && gear != catalogue_joint().gear) ||
          joint.loop.controller.torque_limit_Nm > plant.motor.peak_torque_Nm;
 }
 
-// Of a gear by its name, or of a file. Where neither is given it is the joint's own gear, else that of the reference joint.
+// Reads the friction of a gear by its name, or from a file. The default is the joint's own gear, else the reference joint's.
 FrictionLaw read_friction(TomlSection& section, const std::filesystem::path& folder,
                           const PlantIdentity& plant, const FrictionLaw& reference) {
   const std::string own = plant.gear.view().empty() ? catalogue_joint().gear : std::string(plant.gear.view());
@@ -114,7 +114,7 @@ FrictionLaw read_friction(TomlSection& section, const std::filesystem::path& fol
   }
 }
 
-// Switches and index; what the joint has none of stays away.
+// Reads switches and index. An input without a key does not exist.
 HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInputsConfig& inputs) {
   constexpr Range kPosition{-1e3, 1e3};
   HomingInputs available;
@@ -135,7 +135,7 @@ HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInput
   return available;
 }
 
-// A joint that begins beyond its limits is at fault before anybody moves it. Where an incremental encoder begins says nothing of them.
+// A joint that begins beyond its limits would fault before its first motion. Not for an incremental encoder, which may begin anywhere.
 void refuse_beyond_limits(const TomlSection& section, double position_rad, const JointLimits& limits) {
   const auto allowed = [&](double angle_rad) {
     return angle_rad >= limits.position_min_rad && angle_rad <= limits.position_max_rad;
@@ -159,7 +159,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, const 
   config.plant.period_s = period_s;
   begin_with_model(joint, config.plant);
   if (has_another_motor(joint, config.plant)) config.plant.motor = {};
-  // A link that the joint's model does not have: then the model's inertia is not the motor's.
+  // If only the simulation has a link, the configured inertia is not the motor's alone.
   const bool another = section.has("link") && !joint.loop.controller.link;
   config.plant.joint.inertia_kgm2 =
       another ? section.number("inertia_kgm2", {1e-6, 1e4})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of [joint.simulated]: the simulated joint behind the drivers' seam. Not real-time.
+// Reads the keys of [joint.simulated]: a simulated joint in place of a drive. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace strainwave {
 
-/// Reads the section and sets what depends on the driver: the drive, and the encoder, delay and motor data of the
-/// controller; files of profiles are relative to `folder`. What the joint can be homed by. Throws InputError.
+/// Reads the section and sets the values that depend on the driver: the drive, and the encoder, delay and motor data of the
+/// controller. Files of profiles are relative to `folder`. Returns the inputs for homing. Throws InputError.
 HomingInputs read_simulated_driver(TomlSection& section, double period_s, const std::filesystem::path& folder,
                                    JointConfig& joint);
 

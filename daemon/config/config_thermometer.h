@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [joint.thermometer] of the configuration: a temperature sensor that Linux shows as a file. Not real-time.
+// Reads [joint.thermometer] of the configuration: a temperature sensor that Linux shows as a file. Not real-time.
 #pragma once
 
 #include <filesystem>

@@ -13,14 +13,14 @@ namespace strainwave {
 
 namespace {
 
-/// 125 lines with four edges each: servo motors' encoders have more.
+/// An encoder of 125 lines with four edges each; encoders of servo motors have more.
 constexpr double kFewestCountsPerMotorTurn = 500.0;
 /// Drives on CAN take less (IEC 61800-5-1: above 120 V a drive is no extra-low voltage device).
 constexpr double kHighestSupply_V = 120.0;
 
-/// Rounding of a unit that was written with three digits; twice or half of a unit is another one.
+/// Accepts a unit that was rounded to three digits, but not twice or half of a unit.
 constexpr double kUnitTolerance = 0.01;
-/// Units of 60A9h: down to a millionth.
+/// Object 60A9h has units down to a millionth.
 constexpr double kMostDecades = 6.0;
 
 bool is_decimal_part(double unit, double whole) {
@@ -29,7 +29,7 @@ bool is_decimal_part(double unit, double whole) {
          std::abs(unit * std::pow(10.0, decades) / whole - 1.0) < kUnitTolerance;
 }
 
-/// Drives count speed in the counts of their position, or in turns of the motor.
+/// Drives measure velocity in counts of their position, or in turns of the motor.
 void doubt_velocity_unit(const TomlSection& section, const cia402::UnitConfig& units) {
   const double counts_rad_s = kTurn_rad / units.counts_per_output_revolution;
   const double rpm_rad_s = joint_velocity_rad_s_from_motor_rpm(1.0, units.gear_ratio);
@@ -44,7 +44,7 @@ void doubt_velocity_unit(const TomlSection& section, const cia402::UnitConfig& u
                    "slower than ordered");
 }
 
-/// The ratio below `ratio` that is nearest to it and at most `most`.
+/// Returns the largest ratio of the gear catalogue that is below `ratio` and at most `most`.
 std::optional<double> smaller_ratio(double ratio, double most) {
   std::optional<double> best;
   for (const Gear& gear : gear_catalogue())
@@ -82,7 +82,7 @@ void doubt_motor(TomlSection& motor, const JointConfig& joint, const cia402::Dri
   const double back_emf_Vs_rad = motor.number_or("back_emf_Vs_rad", constant_Nm_A, {0.0, 1e6});
   const double needed_V = back_emf_Vs_rad * ratio * speed_rad_s;
   if (needed_V <= supply_V) return;
-  // The smallest change that is enough.
+  // Suggests one change that suffices.
   std::string likely;
   if (const auto smaller = smaller_ratio(ratio, ratio * supply_V / needed_V))
     likely = "joint.gear_ratio = " + number_text(*smaller);

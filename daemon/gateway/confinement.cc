@@ -25,7 +25,7 @@ namespace strainwave {
 
 namespace {
 
-/// What it shares with the core and its buffers are some 20 MiB; the rest is programs and stacks.
+/// Shared memory and buffers take some 20 MiB; the rest is for programs and stacks.
 constexpr rlim_t kAddressSpaceBytes = 512UL << 20;
 
 [[noreturn]] void fail(const char* what, int error = errno) {
@@ -82,23 +82,23 @@ void allow_if(const Filter& filter, int system_call, const scmp_arg_cmp& conditi
   must(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, system_call, 1, condition), "allowing a system call");
 }
 
-// Receiving, sending and waiting, on the sockets that are there. Names that an architecture does not have are left out by
-// libseccomp; on 32-bit ones the C library asks for the time in 64 bits first.
+// Allows receiving, sending and waiting on the open sockets. libseccomp leaves out calls that an architecture does not have. On
+// 32-bit architectures the C library first tries the calls with 64-bit time.
 void allow_receiving_and_sending(const Filter& filter) {
   for (const int call :
        {SCMP_SYS(recvmmsg), SCMP_SYS(recvmmsg_time64), SCMP_SYS(sendmsg), SCMP_SYS(poll), SCMP_SYS(ppoll),
         SCMP_SYS(ppoll_time64), SCMP_SYS(clock_gettime), SCMP_SYS(clock_gettime64), SCMP_SYS(gettimeofday),
         SCMP_SYS(restart_syscall), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigreturn), SCMP_SYS(exit_group)})
     allow(filter, call);
-  // LCM's library locks, though one thread alone never waits.
+  // LCM's library uses locks, although a single thread never waits for one.
   allow(filter, SCMP_SYS(futex));
   allow(filter, SCMP_SYS(futex_time64));
-  // Waking the core, and a library's complaints, which lead nowhere.
+  // For waking the core, and for messages of libraries, which go to /dev/null.
   for (const int descriptor : {kGatewayWakeFd, STDERR_FILENO})
     allow_if(filter, SCMP_SYS(write), SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(descriptor)));
 }
 
-// Memory, but none that can be run.
+// Allows memory, except executable memory.
 void allow_memory(const Filter& filter) {
   for (const int call : {SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap)}) allow(filter, call);
   const scmp_arg_cmp not_executable = SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0);
@@ -119,7 +119,7 @@ void fill(const Filter& filter) {
 
 void filter_system_calls() {
   const Filter filter = make_filter();
-  // Should there ever be another thread, it is under the filter, too.
+  // The filter applies to all threads, should there ever be another one.
   must(::seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "filtering system calls");
   fill(filter);
   must(::seccomp_load(filter.get()), "loading the filter of system calls");
@@ -154,7 +154,7 @@ void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_d
 
 void confine() {
   silence_standard_streams();
-  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails, no more
+  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit only fails
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NPROC, 0);
   if (kSanitized) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes from the gateway everything it does not need, in two steps: who it is, before it opens anything; and what it may ask of
-// the system, when all is open and bound and before it reads the first datagram. What remains is to receive and send on
-// the sockets it has. Both steps throw std::system_error when the system refuses: better no gateway than an
-// open one. Not real-time.
+// Removes every privilege that the gateway does not need. give_up_privileges() drops user and capabilities before anything is
+// opened. confine() limits the system calls once all is open and bound, before the first datagram is read. Then the gateway can
+// only receive and send on its sockets. Both throw std::system_error when the system refuses: no gateway is better than an
+// unconfined one. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ bool has_system_call_filter() noexcept;
 void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
 /// Silences the standard streams (an attacker in the gateway writes no line into a log), forbids new processes and
-/// growing files, and bounds memory. Of the system calls those of receiving and sending remain; any other ends the process. All threads.
+/// growing files, and bounds memory. Any system call except those for receiving and sending ends the process. Affects all threads.
 void confine();
 
-/// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (AUDIT_ARCH_...), which
-/// need not be this machine's.
+/// Writes the filter of system calls to `descriptor`, as a program of struct sock_filter for `architecture` (AUDIT_ARCH_...),
+/// which may differ from this machine's.
 void export_system_call_filter(std::uint32_t architecture, int descriptor);
 
 }  // namespace strainwave

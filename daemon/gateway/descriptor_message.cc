@@ -15,7 +15,7 @@ namespace {
 constexpr int kWait_ms = 1000;
 constexpr std::size_t kBytes = sizeof(int) * kPassedDescriptors;
 
-/// A byte with descriptors beside it.
+/// A message of one byte that carries descriptors.
 struct Parcel {
   Parcel() {
     message.msg_iov = &part;

@@ -19,14 +19,14 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kDatagramsPerTurn = 256;
-/// A turn ends however far behind it is: with little of a processor it would publish for seconds, and a stop would wait for it.
+/// Ends a turn despite a backlog: on a busy processor it could otherwise publish for seconds while a stop waits.
 constexpr std::size_t kStatesPerTurn = 64;
-/// Some client's largest burst, for several clients at once.
+/// Enough for the largest bursts of several clients at once.
 constexpr std::size_t kWaitingOrders = 256;
-/// Of as many ports as may stop at once: each has one turn.
+/// Number of ports that may send a stop at once: each has one turn.
 constexpr std::size_t kWaitingStops = 256;
 
-// Moves messages into a lane while it has room. Whether there were any.
+// Moves messages into a lane while it has room. Returns whether it moved any.
 bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {
   const std::uint64_t begin = lane.written.load(std::memory_order_relaxed);
   std::uint64_t index = begin;
@@ -75,7 +75,7 @@ bool Gateway::turn(int wait_ms) {
   if (::poll(&descriptor, 1, behind_ ? 0 : wait_ms) > 0) receive();
   hand_over();
   if (echo_.missing(steady_now_ns())) return false;
-  // Answers before states: they are few, and somebody waits for each.
+  // Answers go before states: they are few, and a client waits for each.
   publish_messages();
   behind_ = !publish_states();
   return true;
@@ -127,7 +127,7 @@ void Gateway::hand_over() {
   const bool orders = fill(inbound_.orders, outbound_.orders_taken, orders_);
   if (!stops && !orders) return;
   const char byte = 0;
-  if (::write(wake_fd_, &byte, 1) != 1) return;  // it is full of wakes: the core will look
+  if (::write(wake_fd_, &byte, 1) != 1) return;  // the pipe is full of wakes: the core will look anyway
 }
 
 bool Gateway::publish_states() {
@@ -156,7 +156,7 @@ void Gateway::publish(StateRecord& record) {
 
 void Gateway::publish_messages() {
   WireMessage message;
-  // Who is too slow for slow messages gets the newest; nobody counts those in between.
+  // A gateway that is too slow for these rare messages skips to newer ones. It does not count the lost ones.
   for (std::uint64_t dropped = 0; outbound_.messages.read(message_cursor_, message, dropped);) {
     const auto size =
         static_cast<unsigned int>(std::min<std::uint64_t>(message.size, WireMessage::kMaxBytes));

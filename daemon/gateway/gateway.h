@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM's network to the core and publishes what
-// the core wrote. It decides nothing and knows no secret, so an attacker gains little by it. What comes in is
-// read by our own receiver: LCM's library only sends. Stops go first, and sources take turns. Not real-time.
+// the core wrote. It decides nothing and knows no secret, so an attacker gains little by it. Its own receiver reads
+// the datagrams; LCM's library only sends. Stops go first, and sources take turns. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ namespace strainwave {
 
 class Gateway {
  public:
-  /// Opens and binds everything, and reads nothing that came in: that begins with turn(). `wake_fd`: the end of a pipe
-  /// that tells the core that a message waits; it does not block.
+  /// Opens and binds everything, but reads no datagram before the first turn(). `wake_fd`: non-blocking end of the pipe
+  /// that wakes the core when a message waits.
   Gateway(const OutboundMemory& outbound, InboundMemory& inbound, int wake_fd);
 
   /// Whether LCM could be set up; if not, why and what to do.
@@ -29,8 +29,8 @@ class Gateway {
   const std::string& problem() const noexcept { return problem_; }
 
   /// Waits at most `wait_ms` for datagrams, takes a bounded number of them, then publishes every message and a bounded number of
-  /// states. Does not wait while there are more of these. False: what it publishes does not come back, and nothing else comes then; another
-  /// gateway has to join the group anew.
+  /// states. Does not wait while more states are left. False: its own states do not come back, so no orders arrive either, and a new
+  /// gateway must join the multicast group.
   bool turn(int wait_ms);
 
  private:
@@ -39,7 +39,7 @@ class Gateway {
   void sort(const LcmSource& from, std::span<const std::uint8_t> datagram);
   void note_state(std::span<const std::uint8_t> bytes);
   void hand_over();
-  /// Whether none is left.
+  /// Returns whether no state is left.
   bool publish_states();
   void publish(StateRecord& record);
   void publish_messages();

@@ -32,7 +32,7 @@ bool is_activated() {
 }
 
 void become_gateway_of_core() {
-  // Beyond the places that they will take.
+  // Above the numbers that the descriptors get in the end.
   constexpr int kAway = 64;
   const auto away = [](int descriptor) {
     const UniqueFd here(descriptor);

@@ -26,9 +26,9 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kFirstBackoff_ns = 100'000'000;
-/// Together with its start, which takes some 10 ms, it is back within a second however often it was killed.
+/// With its start of some 10 ms, the gateway is back within a second however often it was killed.
 constexpr std::int64_t kLongestBackoff_ns = 800'000'000;
-/// One that lived this long is not a crash loop.
+/// A gateway that lived this long is not in a crash loop.
 constexpr std::int64_t kStable_ns = 5'000'000'000;
 
 [[noreturn]] void fail(int error, const std::string& what) {
@@ -72,7 +72,7 @@ void GatewayProcess::start(std::int64_t now_ns) {
   started_ns_ = now_ns;
 }
 
-/// The core's end of the connection.
+/// Returns the core's end of the connection.
 UniqueFd GatewayProcess::spawn() {
   std::array<int, 2> connection{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, connection.data()) != 0)
@@ -140,7 +140,7 @@ std::optional<std::string> GatewayProcess::end_of_child() {
                            : "signal " + std::to_string(WTERMSIG(status));
 }
 
-// What it says is read nowhere: it is another user's.
+// Checks only for a hang-up: the core reads no data from a process of another user.
 std::optional<std::string> GatewayProcess::end_of_service() {
   pollfd peer{connection_.get(), POLLRDHUP, 0};
   if (::poll(&peer, 1, 0) != 1 || (peer.revents & (POLLHUP | POLLERR | POLLRDHUP)) == 0) return std::nullopt;
@@ -149,7 +149,7 @@ std::optional<std::string> GatewayProcess::end_of_service() {
 
 void GatewayProcess::kill() noexcept {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
-  // Its own end stays to tell when it has gone.
+  // The connection stays open in the other direction, to show when the gateway has gone.
   else if (running())
     ::shutdown(connection_.get(), SHUT_WR);
 }

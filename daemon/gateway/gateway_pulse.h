@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the gateway hangs, from the count of its turns. Pure: time is an argument. Not real-time.
+// Detects a gateway that hangs, from the count of its turns. Pure: time is an argument. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace strainwave {
 
 class GatewayPulse {
  public:
-  /// One that went round and then does nothing for this long hangs, however young it is.
+  /// A gateway that made a turn and then none for this long hangs, however recently it started.
   static constexpr std::int64_t kSilence_ns = 2'000'000'000;
-  /// Until its first turn a gateway reads nothing that came in, so that no message from outside can make it hang. Before
-  /// that only this machine makes it slow, and a restart would make it slower. The unit strainwave-gateway@.service has the same time.
+  /// Limit before the first turn. A gateway reads no message before it, so only a slow machine can delay it, and a restart would
+  /// delay it more. The unit strainwave-gateway@.service has the same limit.
   static constexpr std::int64_t kStart_ns = 5'000'000'000;
 
-  /// Whether the gateway that was started at `started_ns` hangs at `now_ns`. `turns`: of it and all before it. Ask every turn of the
-  /// core's, also while there is none; says so again when it goes on hanging.
+  /// Whether the gateway that was started at `started_ns` hangs at `now_ns`. `turns`: count of its turns and those of all earlier
+  /// gateways. Call it in every turn of the core, even without a gateway. While it hangs, returns true once per limit.
   bool hangs(std::int64_t started_ns, std::uint64_t turns, std::int64_t now_ns) noexcept {
     if (started_ns != started_ns_) {
       started_ns_ = moved_ns_ = started_ns;
@@ -32,7 +32,7 @@ class GatewayPulse {
     moved_ns_ = now_ns;
     return true;
   }
-  /// How long it may do nothing, s.
+  /// The present limit, s.
   double patience_s() const noexcept { return seconds(patience_ns()); }
 
  private:

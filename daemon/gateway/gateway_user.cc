@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kOwnUser = "strainwave-gateway";
 constexpr const char* kLeastUser = "nobody";
 
-// In a user namespace only some ids exist; another one cannot be taken.
+// In a user namespace only some ids exist; a process cannot take another one.
 bool is_mapped(std::int64_t id, const char* map_path) {
   std::ifstream map(map_path);
   std::int64_t inside = 0;
@@ -66,7 +66,7 @@ GatewayUser default_gateway_user() {
 }
 
 void hide_memory_from_own_user() {
-  // The sanitizers' search for leaks traces its own process.
+  // The sanitizers' leak search traces its own process.
   if (!kSanitized && ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
     throw std::system_error(errno, std::generic_category(), "hiding the daemon's memory");
 }

@@ -25,13 +25,13 @@ namespace {
 // How long to wait for orders before looking for states to publish: half a period of the fastest usual state rate.
 constexpr int kTurn_ms = 2;
 
-/// The core lives, and wants this gateway.
+/// Whether the core runs and wants this gateway.
 bool core_is_there() {
   pollfd core{strainwave::kGatewayCoreFd, POLLRDHUP, 0};
   return ::poll(&core, 1, 0) == 0;
 }
 
-/// False: the core has gone.
+/// Returns false if the core has gone.
 bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::InboundMemory& inbound,
                       strainwave::ServiceWatchdog& watchdog) {
   const std::string url(outbound.lcm_url.view());
@@ -53,7 +53,7 @@ bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::In
 int run() {
   using namespace strainwave;
   if (is_activated()) become_gateway_of_core();
-  // It was started by descriptor, which says nothing to people.
+  // The process was started by descriptor, so its default name would tell people nothing.
   ::prctl(PR_SET_NAME, "strainwave-gateway");
   const MemoryFile outbound_file = MemoryFile::open(kGatewayOutboundFd, sizeof(OutboundMemory), false);
   const MemoryFile inbound_file = MemoryFile::open(kGatewayInboundFd, sizeof(InboundMemory), true);
@@ -63,9 +63,9 @@ int run() {
     std::fputs("strainwave-gateway: the shared memory is not strainwaved's\n", stderr);
     return 1;
   }
-  (void)prefer_this_thread();  // the core says it when it is refused
+  (void)prefer_this_thread();  // the core reports a refusal
   give_up_privileges(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
-  // Without its core it has no purpose, though it hang. (After the change of user, which clears this.)
+  // The gateway ends with its core, even if it hangs. (After the change of user, which clears this setting.)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ServiceWatchdog watchdog;
   watchdog.ready();
@@ -75,7 +75,7 @@ int run() {
     std::fprintf(stderr, "strainwave-gateway: %s\n", gateway.problem().c_str());
     return kGatewayExitNoLcm;
   }
-  // Everything is open and bound, and nothing that came in has been read: that begins with the first turn.
+  // Everything is open and bound, and the gateway reads no datagram before its first turn.
   confine();
   inbound.ready.store(1, std::memory_order_release);
   while (core_is_there()) {
@@ -86,7 +86,7 @@ int run() {
     watchdog.alive(strainwave::steady_now_ns());
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }
-  // No more is allowed; ending without a core needs no more either.
+  // The filter allows no further clean-up, and without a core none is needed.
   ::_exit(0);
 }
 

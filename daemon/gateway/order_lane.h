@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which way a message takes to the core, by its channel and, for a stop, its content. Allocates nothing. Nothing is believed
-// here: a message on the wrong lane is refused by the core as on the right one.
+// Chooses the lane of a message to the core, by its channel and, for a stop, its content. Allocates nothing. The choice involves
+// no trust: the core checks the messages of both lanes alike.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 namespace strainwave {
 
 enum class OrderLane {
-  kNone,   ///< none of the daemon's channels
+  kNone,   ///< not a channel of the daemon
   kStop,   ///< COMMAND with the action disable or hold: goes before everything else
   kOrder,  ///< every other order
-  kState   ///< somebody's STATE
+  kState   ///< a STATE message of any sender
 };
 
 /// `prefix` is the daemon's own.

@@ -12,7 +12,7 @@ void OrderQueue::push(const LcmSource& from, std::string_view channel,
   if (bytes.size() > WireMessage::kMaxBytes) return;
   Entry* entry = place_for(from);
   if (entry == nullptr) return;
-  // One turn after its source's last message: fair queueing by start times, all messages being of one cost.
+  // One turn after its source's last message: start-time fair queueing with equal costs for all messages.
   std::uint64_t turn = turn_;
   for (const Entry& other : entries_)
     if (other.waits && other.source == from) turn = std::max(turn, other.turn);
@@ -41,8 +41,8 @@ bool OrderQueue::pop(WireMessage& into) noexcept {
   return true;
 }
 
-// A free place, or that of the last turn of all if this message's turn would come before it: that is the newest message of
-// whoever has the most.
+// Returns a free place. In a full queue, returns the place with the last turn if this message's turn would come earlier. It holds
+// the newest message of the sender with the most messages.
 OrderQueue::Entry* OrderQueue::place_for(const LcmSource& from) noexcept {
   Entry* last = nullptr;
   std::uint64_t own_turn = turn_;

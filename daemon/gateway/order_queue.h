@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What waits for the core, at most so many messages, of memory that is taken when the queue is made. Sources take turns: one that
-// sends a thousand messages delays another by one of them, and when the queue is full it loses its own newest.
+// Bounded queue of messages for the core, with memory allocated by its constructor. Sources take turns: one that sends a thousand
+// messages delays another by only one of them. When the queue is full, it loses its own newest messages.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +29,14 @@ class OrderQueue {
   struct Entry {
     bool waits = false;
     LcmSource source;
-    std::uint64_t turn = 0;     ///< in which round its source's turn comes to it
-    std::uint64_t arrival = 0;  ///< among those of the same turn the first
+    std::uint64_t turn = 0;     ///< round in which its source's turn reaches it
+    std::uint64_t arrival = 0;  ///< order within the same turn
   };
   Entry* place_for(const LcmSource& from) noexcept;
 
   std::vector<Entry> entries_;
-  std::vector<WireMessage> messages_;  ///< beside entries_, which are searched often
-  std::uint64_t turn_ = 0;             ///< of the message that was taken last
+  std::vector<WireMessage> messages_;  ///< separate from entries_, which are searched often
+  std::uint64_t turn_ = 0;             ///< turn of the message taken last
   std::uint64_t arrivals_ = 0;
   std::uint64_t crowded_out_ = 0;
 };

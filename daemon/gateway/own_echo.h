@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether what the gateway publishes comes back to it. A network that does not bring it brings no order either: the adapter or the route
-// that it joined the group on has gone. Pure: time is an argument. Not real-time.
+// Detects that the gateway's own states no longer come back. Then no orders arrive either: the adapter or route on which it joined
+// the multicast group has gone. Pure: time is an argument. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@ namespace strainwave {
 
 class OwnEcho {
  public:
-  /// Within one PC a datagram comes back in well under a millisecond; states go out ten times a second at the least.
+  /// A datagram comes back within a PC in well under a millisecond. States are sent at least ten times a second.
   static constexpr std::int64_t kPatience_ns = 600'000'000;
 
   /// A state was sent.
   void published(std::int64_t now_ns) noexcept {
     if (waiting_since_ns_ == 0) waiting_since_ns_ = now_ns;
   }
-  /// One came back, or may have: more waited than was read.
+  /// A state came back, or may wait among datagrams that were not read yet.
   void heard() noexcept { waiting_since_ns_ = 0; }
-  /// Ask after all that came was read.
+  /// Call it after all waiting datagrams have been read.
   bool missing(std::int64_t now_ns) const noexcept {
     return waiting_since_ns_ != 0 && now_ns - waiting_since_ns_ > kPatience_ns;
   }
 
  private:
-  std::int64_t waiting_since_ns_ = 0;  ///< 0: for none
+  std::int64_t waiting_since_ns_ = 0;  ///< 0: not waiting
 };
 
 }  // namespace strainwave

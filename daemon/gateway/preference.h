@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What takes stops goes before other programs of ordinary priority: the gateway, and the thread of the core that judges what comes. Else
-// a stop waits behind all who compute. The loop, of real-time priority, goes before both whatever they do. Not real-time.
+// Gives threads that handle stops precedence over ordinary programs: the gateway, and the core's thread that judges messages. Otherwise
+// stops wait behind programs that compute. The loop has real-time priority and precedes both in any case. Not real-time.
 #pragma once
 
 #include <sys/resource.h>
@@ -11,12 +11,12 @@
 
 namespace strainwave {
 
-/// As LimitNICE= of the daemon's unit allows it, and Nice= of the gateway's says it.
+/// Must match LimitNICE= of the daemon's unit and Nice= of the gateway's.
 inline constexpr int kPreferredNice = -10;
 
-/// Of the calling thread, and of those that it starts from then on. Empty when granted, else what was refused and what to do.
+/// Applies to the calling thread and to threads that it starts later. Empty when granted, else what was refused and what to do.
 inline std::string prefer_this_thread() {
-  // In Linux the nice value is a thread's own.
+  // On Linux each thread has its own nice value.
   if (::setpriority(PRIO_PROCESS, 0, kPreferredNice) == 0) return "";
   const std::string nice = std::to_string(kPreferredNice);
   return "nice " + nice + " is refused (" + std::generic_category().message(errno) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether this build carries a sanitizer, whose runtime needs what a confined process may not do.
+// Whether this build has a sanitizer. Its runtime needs operations that a confined process may not use.
 #pragma once
 
 namespace strainwave {

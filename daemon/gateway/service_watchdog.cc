@@ -15,12 +15,12 @@ namespace strainwave {
 
 namespace {
 
-/// Several within any time that a unit would set.
+/// Several notifications within any WatchdogSec= that a unit would set.
 constexpr std::int64_t kEvery_ns = 200'000'000;
 
 }  // namespace
 
-// sd_notify(3) opens a socket for each message, which the filter forbids.
+// Replaces sd_notify(3), which opens a socket for each message: the filter forbids that.
 ServiceWatchdog::ServiceWatchdog() {
   const char* path = ::getenv("NOTIFY_SOCKET");  // NOLINT(concurrency-mt-unsafe): one thread
   if (path == nullptr) return;
@@ -49,7 +49,7 @@ void ServiceWatchdog::send(const char* text) noexcept {
   msghdr message{};
   message.msg_iov = &part;
   message.msg_iovlen = 1;
-  // The filter knows sendmsg alone. One that is lost is followed by the next.
+  // The filter allows only sendmsg. A lost notification is harmless, since the next one follows.
   (void)::sendmsg(socket_.get(), &message, MSG_NOSIGNAL);
 }
 

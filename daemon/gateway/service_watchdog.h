@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells a service manager that the gateway goes round: it ends one that hangs, which the core, another user, may not. Nothing
-// without one. Made before the filter of system calls is loaded; what it does afterwards is sending. Not real-time.
+// Notifies a service manager that the gateway runs. The service manager ends a gateway that hangs; the core, as another user, may not.
+// Does nothing without a service manager. Construct it before the filter of system calls is loaded: it only sends later. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ class ServiceWatchdog {
  public:
   ServiceWatchdog();
 
-  /// The gateway works: what it promises from here on is watched.
+  /// The gateway is ready: from now on the service manager expects alive().
   void ready() noexcept { send("READY=1"); }
-  /// Called every turn; tells now and then.
+  /// Call it every turn; it sends at most every 0.2 s.
   void alive(std::int64_t now_ns) noexcept;
 
  private:

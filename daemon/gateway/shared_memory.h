@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the core and the gateway share, and who may write it.
+// The memory that the core and the gateway share, and which of them may write it.
 //
 // Two anonymous memory files: `outbound`, written by the core and mapped read-only by the gateway (the kernel enforces
 // it), and `inbound`, written by the gateway. The core treats every byte of `inbound` as hostile: it copies first and
@@ -35,12 +35,12 @@ struct StateRecord {
 struct WireMessage {
   static constexpr std::size_t kMaxBytes = kLargestMessageBytes;
   FixedString<64> channel;
-  std::uint64_t source = 0;  ///< on its way in: a number for the address and port that it came from
+  std::uint64_t source = 0;  ///< on its way in: sender's address and port as a number
   std::uint64_t size = 0;
   std::array<std::uint8_t, kMaxBytes> bytes{};
 };
 
-/// What the core says of a joint beside what its loop does; stamped on every state that is published.
+/// Ownership of a joint, from the core; the gateway adds it to every published state.
 struct JointLease {
   std::atomic<std::int64_t> owner_id{0};
   std::atomic<double> lease_s{0.0};
@@ -55,11 +55,11 @@ struct OutboundMemory {
   FixedString<32> prefix;
   FixedString<256> lcm_url;
   std::int64_t session_id = 0;
-  std::int64_t gateway_uid = -1;  ///< whom the gateway becomes; -1: it stays who it is
+  std::int64_t gateway_uid = -1;  ///< user that the gateway becomes; -1: no change
   std::int64_t gateway_gid = -1;
   std::uint64_t joint_count = 0;
   std::array<FixedString<32>, kMaxJoints> joint_names{};
-  std::atomic<std::int64_t> challenge{0};  ///< what orders must quote
+  std::atomic<std::int64_t> challenge{0};  ///< orders must quote it
   std::array<JointLease, kMaxJoints> leases{};
   BroadcastRing<StateRecord, kStateRecords> states;
   BroadcastRing<WireMessage, kMessages> messages;
@@ -67,23 +67,23 @@ struct OutboundMemory {
   std::atomic<std::uint64_t> orders_taken{0};  ///< likewise from inbound.orders
 };
 
-/// Messages on their way to the core. Short: who waits in front of it, waits where sources take turns.
+/// Messages on their way to the core. The lane is short, so that most messages wait in an OrderQueue, where sources take turns.
 struct InboundLane {
   static constexpr std::size_t kMessages = 32;
 
-  std::atomic<std::uint64_t> written{0};  ///< how many messages were put in
+  std::atomic<std::uint64_t> written{0};  ///< number of messages put in so far
   std::array<WireMessage, kMessages> messages{};
 };
 
 /// Written by the gateway only.
 struct InboundMemory {
   std::atomic<std::uint64_t> ready{0};  ///< 1 once LCM works
-  std::atomic<std::uint64_t> turns{0};  ///< rises while the gateway lives
+  std::atomic<std::uint64_t> turns{0};  ///< rises while the gateway runs
   InboundLane stops;                    ///< the core empties this one before it looks at the other
   InboundLane orders;
-  // What the gateway did not hand over, since it was started.
-  std::atomic<std::uint64_t> malformed{0};    ///< datagrams that are not LCM's
-  std::atomic<std::uint64_t> too_long{0};     ///< of messages longer than any of ours
+  // Counts of losses and disturbances.
+  std::atomic<std::uint64_t> malformed{0};  ///< datagrams that are not LCM's, and fragments that do not match
+  std::atomic<std::uint64_t> too_long{0};   ///< datagrams of messages longer than any of ours
   std::atomic<std::uint64_t> interrupted{0};  ///< fragmented messages that were given up
   std::atomic<std::uint64_t> crowded_out{0};  ///< messages for which the queue had no room
   std::atomic<std::uint64_t> state_records_dropped{0};
@@ -96,7 +96,7 @@ class MemoryFile {
  public:
   /// A new file of `size` bytes, mapped writable; with `seal_writes` no other process can map it writable afterwards.
   static MemoryFile create(const char* name, std::size_t size, bool seal_writes);
-  /// An existing one, which it takes, mapped read-only or writable. Refuses a file smaller than `size`.
+  /// Takes over the descriptor of an existing file and maps it read-only or writable. Refuses a file smaller than `size`.
   static MemoryFile open(int descriptor, std::size_t size, bool writable);
 
   MemoryFile(MemoryFile&& other) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the gateway wakes the core. A pipe, because its two ends are separate open files: whatever the gateway does to its own
-// end, reading the other one never waits. (An eventfd is one file for both: who clears its O_NONBLOCK stops its reader.)
+// Wakes the core from the gateway. A pipe has two separate open files at its ends: whatever the gateway does to its own end,
+// reading the other one never waits. (An eventfd is one file for both: clearing O_NONBLOCK in the gateway would block the core.)
 // Not real-time.
 #pragma once
 
@@ -17,7 +17,7 @@ class WakePipe {
   int core_end() const noexcept { return core_end_.get(); }
   /// The end for the gateway to inherit: one byte is one wake.
   int gateway_end() const noexcept { return gateway_end_.get(); }
-  /// Takes the wakes that wait, in one bounded read, however much is written meanwhile.
+  /// Takes the waiting wakes in one bounded read, however much is written meanwhile.
   void take() noexcept;
 
  private:

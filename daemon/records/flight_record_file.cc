@@ -45,7 +45,7 @@ std::string utc(std::int64_t unix_us) {
   return text.data();
 }
 
-// The same without what a file name should not have.
+// The same, without characters that do not suit a file name.
 std::string utc_for_name(std::int64_t unix_us) {
   std::string text = utc(unix_us);
   std::erase_if(text, [](char c) { return c == '-' || c == ':'; });

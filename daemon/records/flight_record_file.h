@@ -10,7 +10,7 @@
 
 namespace strainwave {
 
-/// End of the names of all flight records; only files with this ending are ever removed.
+/// Suffix of the names of all flight records; the daemon removes only files with this suffix.
 inline constexpr const char* kFlightRecordSuffix = ".flight.csv";
 
 struct FlightRecordHeader {
@@ -21,7 +21,7 @@ struct FlightRecordHeader {
   double period_s = 0.0;
 };
 
-/// The whole file. `recorder` must be frozen.
+/// Returns the text of the whole file. `recorder` must be frozen.
 std::string flight_record_text(const FlightRecordHeader& header, const FlightRecorder& recorder);
 
 /// "elbow-20261121T030405Z-c123456-f13.flight.csv"

@@ -49,7 +49,7 @@ struct RecordFile {
   std::uintmax_t size;
 };
 
-// Records of ours, oldest first, and what a crash has left half written.
+// Lists our records, oldest first, including those that a crash has left unfinished.
 std::vector<RecordFile> list_records(const fs::path& directory, std::error_code& error) {
   std::vector<RecordFile> records;
   for (auto it = fs::directory_iterator(directory, error); !error && it != fs::directory_iterator();
@@ -90,7 +90,7 @@ void FlightRecordWriter::start() {
 }
 
 void FlightRecordWriter::run() {
-  // A file size limit shall end in an error of write(), not in the end of the process.
+  // At a file size limit, write() must return an error, and the process must not end.
   sigset_t signals;
   ::sigemptyset(&signals);
   ::sigaddset(&signals, SIGXFSZ);
@@ -150,7 +150,7 @@ bool FlightRecordWriter::write(const std::string& name, const std::string& text,
   return false;
 }
 
-// Removes the oldest records until one more of `size` bytes keeps both bounds.
+// Removes unfinished records, and the oldest until another one of `size` bytes keeps both bounds.
 bool FlightRecordWriter::make_room(std::uintmax_t size, std::string& problem) {
   const auto bound = static_cast<std::uintmax_t>(config_.max_total_MB * kBytesPerMB);
   if (size > bound) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes flight records to files: from a thread of its own, so that a slow, full or absent disk delays
-// nothing else. Bounded in number, size and rate; oldest records make room. Not real-time.
+// Writes flight records to files in a thread of its own, so that a slow, full or absent disk delays nothing
+// else. Limits their number, size and rate, and removes the oldest records to make room. Not real-time.
 #pragma once
 
 #include <condition_variable>
@@ -34,17 +34,17 @@ class FlightRecordWriter {
     std::string joint_model;
     FlightRecorder* recorder;
   };
-  /// Tells of a record that was written, or (`lost`) of one that was not; called from the writer's own thread.
+  /// Reports a record that was written, or (`lost`) one that was not. The writer's own thread calls it.
   using Report = std::function<void(bool lost, const std::string& text, std::int64_t now_ns)>;
   FlightRecordWriter(const RecorderConfig& config, double period_s, std::int64_t session_id,
                      std::vector<Source> sources, Report report);
-  /// Writes what is frozen, then ends the thread.
+  /// Writes the frozen records, then ends the thread.
   ~FlightRecordWriter();
   FlightRecordWriter(const FlightRecordWriter&) = delete;
   FlightRecordWriter& operator=(const FlightRecordWriter&) = delete;
 
   void start();
-  /// Writes every frozen record and releases its memory, whatever comes of it. What the thread does again and again.
+  /// Writes every frozen record and releases its memory, even if the write fails. The thread calls this again and again.
   void turn(std::int64_t now_ns);
 
  private:

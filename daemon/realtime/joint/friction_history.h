@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When and at what temperature a joint learned its friction, and when that is worth a notice. Real-time safe.
+// When and at what temperature a joint learned its friction, and which factor calls for a notice. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ struct FrictionHistory {
     learned_C = temperature_C;
     learned_ns = now_ns;
   }
-  /// -1: never.
+  /// Time since the joint last learned, s; -1: never.
   double age_s(std::int64_t now_ns) const noexcept {
     return learned_ns ? 1e-9 * static_cast<double>(now_ns - *learned_ns) : -1.0;
   }
 };
 
-/// A factor of 2 must be named while a quarter of it is not learned yet: 2 * 3/4, and the inverse.
+/// Friction of twice the table's must give a notice even if a quarter of it is not learned yet: 2 * 3/4, and the inverse.
 inline constexpr double kMostFrictionFactor = 2.0 * 3.0 / 4.0;
 
 constexpr bool differs_from_table(double friction_factor) noexcept {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kStands_s = 0.1;
 /// A joint that rests at the end of its travel may be some counts short of it.
 constexpr double kTravelled = 0.99;
-/// Of the way that the homing speed makes meanwhile.
+/// A joint that covers less than this share of the way at homing speed stands still.
 constexpr double kStandsShare = 0.1;
 
 Homing::Phase first_phase(HomingTarget target) noexcept {
@@ -34,7 +34,7 @@ bool Homing::other_limit_ahead(const JointInputs& inputs) const noexcept {
 
 bool Homing::may_go_on(const Observation& observation) const noexcept {
   const double elapsed_s = seconds(observation.now_ns - begin_ns_);
-  // Both limits at once are a broken wire.
+  // Both limits at once mean a broken wire.
   const bool both_limits = observation.inputs.negative_limit && observation.inputs.positive_limit;
   return elapsed_s <= config_.timeout_s && !both_limits &&
          std::abs(observation.joint_position_rad - begin_rad_) < kTravelled * config_.travel_rad;
@@ -85,7 +85,7 @@ Homing::Order Homing::step(const Observation& observation) noexcept {
   return go(Phase::kToIndex, heading_);
 }
 
-// A joint that stands under little torque has only its friction to overcome.
+// A joint that stands still under less torque may only have to overcome its friction.
 Homing::Order Homing::push(const Observation& observation) noexcept {
   const double stands_rad = kStandsShare * config_.speed_rad_s * kStands_s;
   const bool moved = std::abs(observation.joint_position_rad - marked_rad_) > stands_rad;

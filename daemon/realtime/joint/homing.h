@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Homing: finds the place of known position, at one low speed, within a travel and a time. A state
-// machine that is given measurements and says where to go; it moves nothing itself. Real-time safe; time is
-// an argument. `d` is the search's direction.
+// Homing: searches for a place of known position at one low speed, within limits of travel and time. A state
+// machine that turns measurements into orders; it moves nothing itself. Real-time safe; time is an argument.
+// `d` is the search's direction.
 //
-//   switch:  d until it closes, then -d until it opens = home; the same edge whatever the search met first
-//   index:   d, or from the switch on -d, to the next pulse = home
-//   stop:    d until the joint stands, against `stop_torque_Nm`, for a tenth of a second = home; then no more than to hold
-//            that place
+//   switch:  d until it closes, then -d until it opens = home; always the same edge
+//   index:   d, or after the switch -d, to the next pulse = home
+//   stop:    d until the joint stands still for 0.1 s against `stop_torque_Nm` = home; then holds that place
 //
-// A limit switch that is not looked for turns a search or a way to the index round, once.
+// A limit switch other than the one sought reverses a search, or the way to the index, once.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ enum class HomingTarget {
   kHomeSwitch,
   kLimitSwitch,  ///< in the search's direction
   kIndex,
-  kStop  ///< a mechanical one
+  kStop  ///< mechanical end stop
 };
 
 struct HomingConfig {
@@ -30,44 +29,43 @@ struct HomingConfig {
   bool required = false;           ///< setpoints are refused until the joint is homed
   bool then_index = false;         ///< home is the first index pulse after the switch
   double direction = -1.0;         ///< of the search: -1 or 1
-  double home_position_rad = 0.0;  ///< what the place found is called
-  double speed_rad_s = 0.05;       ///< > 0; a switch is found to this times the period
-  double stop_torque_Nm =
-      0.0;                  ///< > 0: a joint that stands against this much torque is at its mechanical stop
-  double travel_rad = 1.0;  ///< > 0: no farther from where it began, to either side
-  double timeout_s = 60.0;  ///< > 0
+  double home_position_rad = 0.0;  ///< joint position of the place found
+  double speed_rad_s = 0.05;       ///< > 0; a switch is located to this times the period
+  double stop_torque_Nm = 0.0;     ///< > 0: a joint that stands still against it is at its mechanical stop
+  double travel_rad = 1.0;         ///< > 0: largest distance from the start, to either side
+  double timeout_s = 60.0;         ///< > 0
 };
 
 class Homing {
  public:
   enum class Phase { kIdle, kSearching, kLeaving, kToIndex, kPushing, kFound, kFailed };
 
-  /// What the joint is to do from now on.
+  /// What the joint must do from now on.
   struct Order {
     enum class Kind { kGoOn, kMove, kStop };
     Kind kind = Kind::kGoOn;
     double target_rad = 0.0;  ///< kMove, at the homing speed; never beyond the travel
   };
 
-  /// What the joint does now. Positions as the drive counts them.
+  /// Measurements of the joint. Positions are as the drive counts them.
   struct Observation {
     double joint_position_rad = 0.0;
     JointInputs inputs;
     std::int64_t now_ns = 0;
-    double torque_Nm = 0.0;  ///< that the controller gives
+    double torque_Nm = 0.0;  ///< from the controller, or from a drive that closes its own loop
   };
 
   explicit Homing(const HomingConfig& config) noexcept : config_(config) {}
 
   bool possible() const noexcept { return config_.target != HomingTarget::kNone; }
-  /// Begins anew; the order to begin with.
+  /// Begins a search and returns its first order.
   Order begin(const Observation& observation) noexcept;
   /// One period.
   Order step(const Observation& observation) noexcept;
   void abort() noexcept { phase_ = Phase::kIdle; }
 
   Phase phase() const noexcept { return phase_; }
-  /// Where home is, as the drive counts; from kFound on, while the joint comes to rest.
+  /// Position of home, as the drive counts. Valid from kFound on, even while the joint still comes to rest.
   double found_rad() const noexcept { return found_rad_; }
 
  private:
@@ -84,15 +82,15 @@ class Homing {
 
   HomingConfig config_;
   Phase phase_ = Phase::kIdle;
-  double heading_ = 0.0;  ///< of the motion now
+  double heading_ = 0.0;  ///< direction of the present motion
   double begin_rad_ = 0.0;
   double found_rad_ = 0.0;
   std::int64_t begin_ns_ = 0;
   double marked_rad_ =
-      0.0;  ///< leaving: where the switch closed; pushing: since marked_ns_ the joint stands here
+      0.0;  ///< leaving: where the switch closed; pushing: where the joint stands since marked_ns_
   std::int64_t marked_ns_ = 0;
   bool confirmed_ = false;        ///< leaving: the switch was seen again
-  std::int64_t index_count_ = 0;  ///< when the motion towards the index began
+  std::int64_t index_count_ = 0;  ///< count when the motion towards the index began
 };
 
 }  // namespace strainwave

@@ -12,7 +12,7 @@ namespace strainwave {
 
 namespace {
 
-/// Of the mean speed of a joint that is not under control: a count of 20 urad is then a tenth of the usual standstill_rad_s.
+/// Averaging time of the speed without control: a count of 20 urad then shows as a tenth of the usual standstill_rad_s.
 constexpr double kMean_s = 0.02;
 
 ReadingDoubt not_finite(const ActuatorReading& reading) noexcept {
@@ -47,13 +47,13 @@ void JointDrive::read(bool controlled, double velocity_rad_s, const CycleTime& t
         (position_rad() - last_position_rad - velocity_rad_s_ * elapsed_s) / (kMean_s + elapsed_s);
   const std::int64_t missed = missed_ + time.elapsed_periods;
   missed_ = fresh_ ? 0 : static_cast<int>(std::min<std::int64_t>(missed, missed_limit_ + 1));
-  // A brake that is shut holds the joint whatever the torque.
+  // A shut brake holds the joint, whatever the torque.
   doubt(reading, reading.drive_state == DriveState::kEnabled && controlled && !reading.brake_shut, time);
   temperature_.update(reading.has_temperature, reading.temperature_C, reading.temperature_produced_ns,
                       time.now_ns);
 }
 
-// Where the joint must be by now: a position that stands still and then jumps would look like a blocked joint.
+// Extrapolates: a position that stands still and then jumps would look like a blocked joint.
 void JointDrive::go_on_without(double last_position_rad, double moved_rad) noexcept {
   reading_.joint_position_rad = last_position_rad + moved_rad;
   reading_.has_velocity = false;
@@ -62,7 +62,7 @@ void JointDrive::go_on_without(double last_position_rad, double moved_rad) noexc
 }
 
 void JointDrive::doubt(const ActuatorReading& reading, bool driven, const CycleTime& time) noexcept {
-  // What a joint may have moved by counts from where it was sampled: after a stall the newest position is of the time before.
+  // The check needs the time between samples, not arrivals: after a stall the newest position is from before it.
   const std::int64_t sampled_ns = time.now_ns - nanoseconds(reading.position_late_periods * period_s_);
   const bool possible = !fresh_ || position_check_.plausible(reading.joint_position_rad,
                                                              reading.torque_applied_Nm, driven, sampled_ns);

@@ -24,7 +24,7 @@ void follow_homing(JointInLoop& joint, const Homing::Order& order) noexcept {
   }
 }
 
-// A drive that does not say its torque would press at the stop until another fault.
+// A drive that does not measure its torque would press against the stop until another fault.
 bool presses_unseen(const JointInLoop& joint) noexcept {
   return joint.config.controller.drive_closes_loop() && joint.config.homing.stop_torque_Nm > 0.0 &&
          !joint.drive.reading().torque_measured;

@@ -27,7 +27,7 @@ void JointInLoop::raise_fault(Fault fault, const CycleTime& time,
                               std::optional<std::uint32_t> own_finding) noexcept {
   const Mode from = mode.mode();
   if (!mode.latch(fault, own_finding.value_or(drive.reading().drive_error), time.now_ns)) return;
-  // Counts may be missing from now on.
+  // Encoder counts may be missing from now on.
   if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kConnectionLost ||
       fault == Fault::kDriveRestarted)
     zero.forget();
@@ -39,7 +39,7 @@ void JointInLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   if (mode.is(Mode::kFaulted)) faulted_cycle = time.cycle;
   if (from == Mode::kHoming) homing.abort();
   if (mode.is(Mode::kStopping)) law.controller().stop();
-  // At rest: what the joint carries is known now.
+  // The joint rests, so its load is known now.
   if (from == Mode::kStopping && mode.is(Mode::kOff)) law.keep_held_load(drive.position_rad());
   if (mode.is(Mode::kStopping) || !mode.controlled()) end_orders();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One joint in the loop: its parts, and its changes of mode, which touch them all. The loop (daemon/realtime/joint/joint_loop.h) has them act in
-// their order; the functions below act on them by subject. Real-time safe.
-// Positions are the drive's; `zero` stands at the border.
+// One joint in the loop: its parts, and its changes of mode, which affect all parts. JointLoop (daemon/realtime/joint/joint_loop.h)
+// runs them in order; each function below covers one subject. Real-time safe. Positions are as the drive counts them; `zero`
+// converts them to joint positions.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ class PathFollower;
 
 struct JointInLoop {
   struct StreamNotes {
-    bool approaches = false;        ///< it began far from the joint, which is not on it yet
+    bool approaches = false;        ///< the stream began far from the joint, which has not reached it yet
     std::int64_t late_samples = 0;  ///< of all streams since the start
-    std::int64_t yielded_id = 0;    ///< that a yield ended; 0: none
+    std::int64_t yielded_id = 0;    ///< the stream that a yield ended; 0: none
   };
 
   /// Not real-time safe. `actuator` is owned; the queue outlives this object.
@@ -36,18 +36,18 @@ struct JointInLoop {
               EventQueue& event_queue);
 
   bool change_mode(ModeEvent event, const CycleTime& time) noexcept;
-  /// With the drive's number for it, or with what the daemon found itself. The first fault stays.
+  /// Latches `fault` with the drive's error number, or with the daemon's `own_finding`. The first fault stays.
   void raise_fault(Fault fault, const CycleTime& time,
                    std::optional<std::uint32_t> own_finding = {}) noexcept;
   void notice(Notice notice) noexcept { notices |= static_cast<std::int32_t>(notice); }
   void drop_path() noexcept;
-  /// A stream or a path is over.
+  /// Ends the stream or path.
   void end_orders() noexcept;
-  /// As the control law has it, or the drive, or by the positions.
+  /// From the control law; without control from the drive, or from positions.
   double velocity_rad_s() const noexcept {
     return mode.controlled() ? law.motion().joint_velocity_rad_s : drive.velocity_rad_s();
   }
-  /// As the drive counts it.
+  /// The position limits, as the drive counts positions.
   PositionRange reachable_range() const noexcept {
     return {zero.to_drive_rad(config.limits.position_min_rad),
             zero.to_drive_rad(config.limits.position_max_rad)};
@@ -67,12 +67,12 @@ struct JointInLoop {
   Homing homing;
   MotionWatch motion_watch;
   PathSlots path_slots;
-  const LoadedPath* path = nullptr;  ///< its part of one, begun or not; null: none
-  PathFollower* follower = nullptr;  ///< of all joints; set before the loop runs, outlives this object
-  std::optional<Yield> yield;        ///< since the last order that moved the joint, or cleared a fault
+  const LoadedPath* path = nullptr;  ///< the joint's part of a path, begun or not; null: none
+  PathFollower* follower = nullptr;  ///< shared by all joints; set before the loop runs, outlives this object
+  std::optional<Yield> yield;        ///< set by a yield, until an order moves the joint or clears a fault
   StreamNotes stream;
-  bool ending = false;              ///< the loop is: orders that move the joint are refused
-  std::int64_t faulted_cycle = -1;  ///< the last in which it faulted
+  bool ending = false;              ///< the loop is ending: orders that move the joint are refused
+  std::int64_t faulted_cycle = -1;  ///< the last cycle in which it faulted
   std::int32_t notices = 0;         ///< of this period
 
  private:
@@ -86,14 +86,14 @@ Ruling obey(JointInLoop& joint, const Order& order, const CycleTime& time,
 Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept;
 
 Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept;
-/// One period, before the control law's.
+/// One period of homing, before the control law.
 void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept;
-/// After the control law's: once the home is found or a hold ordered, the joint holds as soon as it rests.
+/// After the control law: once home is found or a hold was ordered, the joint holds as soon as it rests.
 void end_homing(JointInLoop& joint, const CycleTime& time) noexcept;
 
-/// After the control law: notices of the limits that it met.
+/// After the control law: notices of the limits that it reached.
 void note_limits(JointInLoop& joint) noexcept;
-/// Faults of a joint under control, and the load that it yields to.
+/// Checks a joint under control for faults, and for a load to which it must yield.
 void check_motion(JointInLoop& joint, const CycleTime& time) noexcept;
 
 }  // namespace strainwave

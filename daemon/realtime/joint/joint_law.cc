@@ -11,9 +11,9 @@ namespace strainwave {
 
 namespace {
 
-/// So little of its way changes the torque of gravity by a hundredth at most.
+/// So small an angle changes the torque of gravity by at most a hundredth of its amplitude.
 constexpr double kSamePlace_rad = 0.01;
-/// Of the estimated inertia, beside kInertiaApart.
+/// Tolerated standard deviations of the estimated inertia, in addition to kInertiaApart.
 constexpr double kCertainDeviations = 3.0;
 
 }  // namespace
@@ -25,14 +25,14 @@ JointLaw::JointLaw(const JointLoopConfig& config)
       held_{config.initial_load_Nm, {}},
       closes_loop_(config.controller.drive_closes_loop()) {}
 
-// Scales belong to the rules with which they were learned.
+// Learned friction scales are valid only for the rules with which they were learned.
 void JointLaw::use_table(const TableSlot& slot) noexcept {
   if (table_ != nullptr && table_->friction_rules_id != slot.friction_rules_id) forget_learned();
   controller_.load(slot.table);
   table_ = &slot;
 }
 
-// A joint that is found elsewhere may carry something else than gravity as it is configured.
+// A joint that was moved meanwhile may carry another load, so only the configured gravity counts there.
 double JointLaw::load_at_Nm(double position_rad) const noexcept {
   const double gravity_Nm = gravity_.at(position_rad);
   if (!held_.position_rad) return held_.torque_Nm + gravity_Nm;
@@ -67,7 +67,7 @@ void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_op
   if (motion_.learns) friction_.learned_now(measurement.temperature_C, time.now_ns);
 }
 
-// By the torque that was commanded last. A brake holds whatever the torque; a drive that closes its own loop makes another.
+// Uses the last commanded torque. A brake would hold the joint whatever this torque; a drive that closes its own loop applies another one.
 void JointLaw::estimate_inertia(const JointMeasurement& measurement, bool other_torque) noexcept {
   if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
       other_torque)
@@ -83,7 +83,7 @@ void JointLaw::restore(const LearnedFriction& learned, const FrictionHistory& hi
 }
 
 void JointLaw::forget_learned() noexcept {
-  // A drive that closes its own loop is fed the load even at rest: it must not fall by it at once.
+  // A drive that closes its own loop gets the load as feed-forward even at rest, so the load must not drop to zero at once.
   LearnedFriction none;
   if (closes_loop_) none.load_Nm = controller_.friction().load_Nm();
   controller_.friction().set(none);

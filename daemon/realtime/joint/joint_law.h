@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The control law of one joint in the loop, with what it needs around it: the table in use, what was learned,
-// the load that held the joint, the inertia that its motions show. Real-time safe but for the constructor. Positions are the drive's.
+// The control law of one joint in the loop, with its state: the table in use, learned friction, held load, estimated
+// inertia. Real-time safe except for the constructor. Positions are as the drive counts them.
 #pragma once
 
 #include <cstdint>
@@ -28,44 +28,44 @@ class JointLaw {
 
   JointController& controller() noexcept { return controller_; }
   const JointController& controller() const noexcept { return controller_; }
-  /// Of this period; zero while the law does not run.
+  /// The result of this period; zero while the law does not run.
   const JointStep& motion() const noexcept { return motion_; }
-  /// Another torque than the law's is safer: none.
+  /// Sets the torque to zero, because the law's torque is not safe.
   void refuse_torque() noexcept {
     motion_.output.torque_Nm = 0.0;
     motion_.output.saturated = true;
   }
 
-  /// At rest or while the reference stands still: takes the table, which outlives its use.
+  /// Takes the table, which outlives its use. Call it only at rest or while the reference stands still.
   void use_table(const TableSlot& slot) noexcept;
   const TableSlot* table() const noexcept { return table_; }
 
-  /// Begins at `velocity_rad_s` with the torque that holds the load: what held it until now lets go after this period.
+  /// Begins at `velocity_rad_s` with the torque that holds the load. Whatever held the load until now lets go after this period.
   void take_over(double position_rad, double velocity_rad_s) noexcept;
-  /// A brake holds the joint at its place, whatever the torque: nothing can be learned, and the load that is known is held. The first
-  /// count that it moves is the law's.
+  /// Call it while a brake holds the joint: the law learns nothing and holds the known load. Once the joint moves by a count, the law
+  /// controls it.
   void wait_for_brake(double position_rad) noexcept;
-  /// One period. `brake_opens`: the torque of before says nothing of the inertia.
+  /// One period. `brake_opens`: the previous torque is not used to estimate the inertia.
   void run(const JointDrive& drive, const CycleTime& time, bool brake_opens) noexcept;
   void rest() noexcept { motion_ = {}; }
-  /// The joint has come to rest here, and something else holds it from here on.
+  /// Stores the holding torque at `position_rad`: the joint rests there, and something else holds it from now on.
   void keep_held_load(double position_rad) noexcept {
     held_ = {controller_.holding_torque_Nm(), position_rad};
   }
 
   const FrictionHistory& friction_history() const noexcept { return friction_; }
-  /// What an earlier run of the daemon learned, with the rules of the first table.
+  /// Restores what an earlier run of the daemon learned with the rules of the first table.
   void restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept;
   void forget_learned() noexcept;
 
   std::optional<double> inertia_kgm2() const noexcept { return inertia_.inertia_kgm2(); }
-  /// The inertia that motions show is another one than configured, by more than the estimate may be off.
+  /// Whether the estimated inertia differs from the configured one by more than its possible error.
   bool shows_other_inertia() const noexcept;
-  /// Of a joint that oscillates (lcmtypes/oscillation_evidence.h).
+  /// The evidence of an oscillation, as a number (lcmtypes/oscillation_evidence.h).
   std::uint32_t evidence() const noexcept;
 
  private:
-  /// The torque that held the joint when it last rested under control, and where that was; before, the configuration's.
+  /// Torque and position when the joint last rested under control. Before that, the configured load without a position.
   struct HeldLoad {
     double torque_Nm = 0.0;
     std::optional<double> position_rad;
@@ -78,7 +78,7 @@ class JointLaw {
   InertiaEstimate inertia_;
   FrictionHistory friction_;
   HeldLoad held_;
-  bool closes_loop_;                  ///< the drive, by itself
+  bool closes_loop_;                  ///< the drive closes its own loop
   const TableSlot* table_ = nullptr;  ///< the active one
   JointStep motion_;
 };

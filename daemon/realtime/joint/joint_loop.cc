@@ -11,14 +11,14 @@ namespace strainwave {
 
 namespace {
 
-// Of each ActuatorFault, in their order.
+// The fault for each ActuatorFault, in their order.
 constexpr std::array kFaults{Fault::kNone,           Fault::kReadFailed,    Fault::kWriteRefused,
                              Fault::kDriveFault,     Fault::kPowerLost,     Fault::kImplausibleReading,
                              Fault::kConnectionLost, Fault::kEmergencyStop, Fault::kDriveRestarted,
                              Fault::kBusError};
 static_assert(kFaults.size() == static_cast<std::size_t>(ActuatorFault::kBusError) + 1);
 
-// By the last temperature that could be believed.
+// Uses the last plausible temperature.
 double driving_share(const JointInLoop& joint) noexcept {
   const TemperatureCheck& temperature = joint.drive.temperature();
   return temperature.known() ? joint.config.limits.driving_share(temperature.used_C()) : 1.0;
@@ -34,7 +34,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   joint_.notices = 0;
-  // A move keeps the share with which it began, whatever the sensor's noise. Paths and streams, which others share, have all of the torque.
+  // A move keeps the share with which it began, despite the sensor's noise. Paths and streams, which other joints may share, get full torque.
   if (joint_.ordered.goes_on())
     driving_share_ = 1.0;
   else if (record_.state.setpoint_velocity_rad_s == 0.0)
@@ -106,7 +106,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   if (brake_opens) joint_.law.wait_for_brake(joint_.drive.position_rad());
   joint_.law.run(joint_.drive, time, brake_opens);
   const double torque_Nm = joint_.law.motion().output.torque_Nm;
-  // Homing goes into switches on purpose, slowly; its way to a stop needs the torque.
+  // Homing moves into switches on purpose, slowly, and needs its torque to reach a stop.
   if (!joint_.config.controller.drive_closes_loop() && !joint_.mode.is(Mode::kHoming) &&
       joint_.drive.reading().inputs.limit_towards(torque_Nm))
     joint_.law.refuse_torque();
@@ -149,7 +149,7 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
   }
 }
 
-// With the motion that there is.
+// Starts the control law from the present motion.
 void JointLoop::take_over(const CycleTime& time) noexcept {
   const double measured_rad_s = joint_.velocity_rad_s();
   const double velocity_rad_s =
@@ -163,7 +163,7 @@ void JointLoop::take_over(const CycleTime& time) noexcept {
 }
 
 void JointLoop::command_drive(const CycleTime& time) noexcept {
-  // In the fault's own cycle, and until the drive is seen to have obeyed; what follows is the order of every drive that is off.
+  // Stops the drive in the fault's own cycle and until it reports kDisabled. Then the usual command to a disabled drive suffices.
   if (joint_.mode.is(Mode::kFaulted) &&
       (joint_.mode.began(time.now_ns) || joint_.drive.reading().drive_state != DriveState::kDisabled))
     joint_.drive.stop();
@@ -184,7 +184,7 @@ void JointLoop::end(const CycleTime& time) noexcept {
   (void)joint_.change_mode(ModeEvent::kDisableOrdered, time);
 }
 
-// Notices of what lasts for longer than a period.
+// Notices of conditions that last longer than a period.
 void JointLoop::note_standing() noexcept {
   const OrderedTarget& ordered = joint_.ordered;
   const JointController& controller = joint_.law.controller();

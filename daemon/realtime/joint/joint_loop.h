@@ -16,10 +16,10 @@ namespace strainwave {
 
 class JointLoop {
  public:
-  /// Tables in turn: the active one, the one before, and one for the supervisor to write the next into.
+  /// Slots for the active table, the previous one, and the next one, which the supervisor writes.
   static constexpr std::size_t kTableSlots = 3;
 
-  /// Not real-time safe. `actuator` is owned. The queues are the loop's, shared by all joints, and outlive it.
+  /// Not real-time safe. `actuator` is owned. The queues belong to the loop, are shared by all joints, and outlive this object.
   JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator,
             ReplyQueue& replies, EventQueue& events);
 
@@ -28,14 +28,14 @@ class JointLoop {
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
 
-  /// Before the loop runs: where every cycle is recorded. It outlives this object.
+  /// Call it before the loop runs: `recorder` then records every cycle. It outlives this object.
   void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
 
   // Real-time thread.
   void step(const CycleTime& time) noexcept;
-  /// The loop ends: the joint comes to rest, and from now on every order that could set it moving is refused. May be repeated.
+  /// The loop ends: the joint comes to rest, and refuses every order that could move it from now on. May be repeated.
   void end(const CycleTime& time) noexcept;
-  /// For paths, and for groups. Of the supervisor's: law.restore() before the loop runs, and its side of path_slots.
+  /// For paths and groups. The supervisor may use law.restore() before the loop runs, and its side of path_slots.
   JointInLoop& joint() noexcept { return joint_; }
   const JointInLoop& joint() const noexcept { return joint_; }
   Mode mode() const noexcept { return joint_.mode.mode(); }
@@ -64,11 +64,11 @@ class JointLoop {
   double driving_share_ = 1.0;
 };
 
-/// After every joint has made its step. Where a joint has faulted in this cycle, the others of its group fault (kGroup) and their drives are
-/// stopped. Joints that are off stay off. Real-time safe.
+/// Call it after the step of every joint. If a joint faulted in this cycle, the others of its group fault, too (kGroup), and their
+/// drives are stopped. Joints that are off stay off. Real-time safe.
 void stop_groups_of_the_faulted(std::span<const std::unique_ptr<JointLoop>> joints,
                                 const CycleTime& time) noexcept;
-/// A fault of the loop itself, for every joint that is not off. Real-time safe.
+/// Raises a fault of the loop itself in every joint that is not off. Real-time safe.
 void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,
                          const CycleTime& time) noexcept;
 

@@ -14,7 +14,7 @@ struct Transition {
   Mode to;
 };
 
-// Faults besides lead to Faulted from every mode.
+// In addition, a fault leads to Faulted from every mode.
 constexpr std::array kTransitions{
     Transition{Mode::kOff, ModeEvent::kEnableOrdered, Mode::kStarting},
     Transition{Mode::kOff, ModeEvent::kDisableOrdered, Mode::kOff},

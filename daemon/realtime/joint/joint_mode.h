@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modes of a joint, what leads from one to another, and the mode that a joint is in: how long it has lasted, and the fault that is
-// latched in it. Real-time safe; time is an argument.
+// The modes of a joint and their transitions. JointMode holds a joint's present mode, its duration and the latched fault. Real-time
+// safe; time is an argument.
 //
 //   Off -> Starting -> (Releasing ->) Holding <-> Tracking -> Stopping -> Off, Holding <-> Homing, and Faulted from anywhere.
 // Releasing: the position is held under torque while the brake opens; no motion is accepted before it is open.
@@ -17,7 +17,7 @@ namespace strainwave {
 
 enum class ModeEvent {
   kEnableOrdered,     ///< a command to enable
-  kTorqueReady,       ///< the drive takes torque commands, its brake is shut
+  kTorqueReady,       ///< the drive takes torque commands, but its brake is shut
   kDriveReady,        ///< the drive takes torque commands, and nothing else holds the joint
   kSetpointAccepted,  ///< a move or a stream begins or goes on
   kHomeOrdered,       ///< a command to find the home position
@@ -27,7 +27,7 @@ enum class ModeEvent {
   kFaultCleared,      ///< a command to clear
 };
 
-/// The mode after `event`, or nothing when the event means nothing in this mode (a command is then refused).
+/// The mode after `event`, or nothing when the event is not allowed in this mode (a command is then refused).
 std::optional<Mode> next_mode(Mode mode, ModeEvent event) noexcept;
 
 /// True while the drive is to be enabled.
@@ -42,9 +42,9 @@ constexpr bool is_controlled(Mode mode) noexcept {
 
 class JointMode {
  public:
-  /// False, and nothing changes, when `event` means nothing in this mode.
+  /// Returns false and changes nothing when `event` is not allowed in this mode.
   bool apply(ModeEvent event, std::int64_t now_ns) noexcept;
-  /// Latches `fault` with the drive's own number for it. The first fault stays: false when one is latched already.
+  /// Latches `fault` with its error number. The first fault stays: false when one is latched already.
   bool latch(Fault fault, std::uint32_t drive_error, std::int64_t now_ns) noexcept;
 
   Mode mode() const noexcept { return mode_; }
@@ -53,7 +53,7 @@ class JointMode {
   bool controlled() const noexcept { return is_controlled(mode_); }
   /// kNone unless faulted.
   Fault fault() const noexcept { return fault_; }
-  /// What the drive said when the last fault came.
+  /// The error number of the last fault.
   std::uint32_t drive_error() const noexcept { return drive_error_; }
   std::int64_t faults_total() const noexcept { return faults_total_; }
 

@@ -9,8 +9,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kFarthestAhead_s = 1.0;  // of a setpoint that says when it is for
-// A path begins where the joint holds. What it may be off is what the setpoint then catches up with.
+constexpr double kFarthestAhead_s = 1.0;  // for a setpoint with at_cycle
+// A path must begin where the joint holds, within this tolerance. The setpoint then makes up for the difference.
 constexpr double kBeginsWithin_rad = 1e-3;
 
 double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
@@ -28,7 +28,7 @@ Ruling enable(JointInLoop& joint, const CycleTime& time) noexcept {
   if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
   if (joint.ending) return Reason::kEnding;
   if (joint.law.table() == nullptr) return Reason::kNoTable;
-  // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
+  // A drive that is silent because of a fault reports it: the enabled joint then faults, and the fault can be cleared.
   if (joint.mode.is(Mode::kOff) && joint.drive.too_many_missed() &&
       joint.drive.reading().fault == ActuatorFault::kNone)
     return Reason::kDriveNotReady;
@@ -45,7 +45,7 @@ Ruling use_table(JointInLoop& joint, const TableSlot& slot) noexcept {
   const bool at_standstill = joint.mode.is(Mode::kHolding);
   if (!joint.at_rest() && !at_standstill) return Reason::kMoving;
   const GainTable& table = slot.table;
-  // Less torque than the joint needs to stay where it is would let it fall, and so would a lower limit of the load that it yields to.
+  // A torque limit below the holding torque would let the joint fall. So would a load limit below its present load.
   const double holds_Nm = std::abs(joint.law.motion().output.torque_Nm);
   if (joint.mode.controlled() && holds_Nm > table.torque_limit_Nm)
     return {Reason::kOutOfRange, table.torque_limit_Nm, holds_Nm};
@@ -54,14 +54,14 @@ Ruling use_table(JointInLoop& joint, const TableSlot& slot) noexcept {
     return {Reason::kOutOfRange, loads.load_Nm, std::abs(joint.law.motion().load_Nm)};
   joint.motion_watch.limit_loads(loads);
   joint.law.use_table(slot);
-  // A table with a box is for joints of other inertias than the one that it is designed for.
+  // A table with a box also fits joints of other inertias than its own, so a flexible joint uses its configured inertia.
   const std::optional<LinkModel>& link = joint.config.controller.link;
   joint.drive.set_joint(link ? link->motor_inertia_kgm2 + link->link_inertia_kgm2 : table.plant.inertia_kgm2,
                         largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
 }
 
-// Where a table may change, too: what is forgotten makes no torque step at rest.
+// Allowed in the same modes as a new table: at rest, forgetting makes no torque step.
 Ruling reset_learning(JointInLoop& joint) noexcept {
   if (!joint.at_rest() && !joint.mode.is(Mode::kHolding)) return Reason::kMoving;
   joint.law.forget_learned();
@@ -73,7 +73,7 @@ Ruling stream_ended(JointInLoop& joint, std::int64_t stream_id) noexcept {
   return {Reason::kStreamEnded, std::abs(joint.yield->load_Nm), joint.yield->limit_Nm};
 }
 
-// From where the joint will be by then. One that is far away is approached, if the order says so.
+// Compares the start of a stream with where the joint will be by then. The joint approaches a distant start only if the order says so.
 Ruling judge_begin(JointInLoop& joint, const Order& order, double target_rad, double ahead_s) noexcept {
   const Trajectory& now = joint.law.controller().plan().trajectory();
   const double far_rad = std::abs(target_rad - now.position_rad() - ahead_s * now.velocity_rad_s());

@@ -8,7 +8,7 @@ namespace strainwave {
 
 namespace {
 
-// The joint yields once to what pushes it: a load that does not let go, or is back as soon as the joint is held again, is a fault.
+// The joint yields once to a push. A load that does not end, or returns as soon as the joint holds again, is a fault.
 void stop_overloaded(JointInLoop& joint, const CycleTime& time) noexcept {
   const bool may_hold =
       joint.config.overload_stop == OverloadStop::kHoldLoad && !joint.mode.is(Mode::kHoming);
@@ -53,10 +53,10 @@ void check_motion(JointInLoop& joint, const CycleTime& time) noexcept {
       joint.drive.reading().inputs.limit_towards(motion.reference.velocity_rad_s))
     return joint.raise_fault(Fault::kLimitSwitch, time);
   if (motion.oscillates) return joint.raise_fault(Fault::kChatter, time, joint.law.evidence());
-  // What the joint is yielding to pushes on as fast as it may be pushed.
+  // The load pushes a yielding joint too fast, so the fault is an overload.
   if (std::abs(motion.joint_velocity_rad_s) > limits.overspeed_rad_s)
     return joint.raise_fault(joint.law.controller().yields() ? Fault::kOverload : Fault::kSpeedLimit, time);
-  // Until the brake is open the joint stands whatever it is ordered.
+  // Until the brake is open, the joint stands still whatever the order.
   if (joint.mode.is(Mode::kReleasing)) return joint.motion_watch.begin(position_rad, time.now_ns);
   const Fault fault = joint.motion_watch.judge(motion, position_rad, time.now_ns);
   if (joint.motion_watch.high_load()) joint.notice(Notice::kLoadHigh);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the drive's counts mean: the offset that homing finds. Controller and homing count positions as the drive does; what
-// comes from outside and goes there is moved by this. So a joint that becomes homed does not jump, and nothing in the control
-// law begins anew. Real-time safe.
+// The offset from the drive's counts to joint positions, which homing finds. Controller and homing count positions as the drive
+// does; only positions from and to the outside are converted. So a joint that becomes homed does not jump, and its control law
+// does not restart. Real-time safe.
 //
 //   joint position = drive position + offset
 #pragma once
@@ -10,20 +10,20 @@ namespace strainwave {
 
 class JointZero {
  public:
-  /// With `must_be_homed` false positions are true from the start.
+  /// With `must_be_homed` false, positions are valid from the start.
   explicit JointZero(bool must_be_homed) noexcept : state_(must_be_homed ? State::kUnknown : State::kGiven) {}
 
-  /// The place that the drive counts as `drive_rad` is `joint_rad`.
+  /// Defines that the drive's position `drive_rad` is the joint position `joint_rad`.
   void set(double drive_rad, double joint_rad) noexcept {
     offset_rad_ = joint_rad - drive_rad;
     if (state_ == State::kUnknown) state_ = State::kFound;
   }
-  /// Counts may be missing, or a search begins.
+  /// Forgets a zero found by homing: counts may be missing, or a new search begins.
   void forget() noexcept {
     if (state_ == State::kFound) state_ = State::kUnknown;
   }
 
-  /// Whether positions mean what the configuration says.
+  /// Whether joint positions are valid.
   bool known() const noexcept { return state_ != State::kUnknown; }
   double to_joint_rad(double drive_rad) const noexcept { return drive_rad + offset_rad_; }
   double to_drive_rad(double joint_rad) const noexcept { return joint_rad - offset_rad_; }
@@ -31,7 +31,7 @@ class JointZero {
  private:
   enum class State {
     kGiven,    ///< by the configuration; homing may correct it
-    kUnknown,  ///< counts from where the drive was switched on
+    kUnknown,  ///< the drive counts from where it was switched on
     kFound     ///< by homing
   };
   State state_;

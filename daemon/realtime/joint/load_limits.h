@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what load on a joint yields, and from what on there is notice. Real-time safe. Joint side, N.m.
+// The load above which a joint yields, and the load above which there is a notice. Real-time safe. Joint side, N.m.
 #pragma once
 
 #include <optional>
@@ -7,32 +7,31 @@
 namespace strainwave {
 
 struct LoadLimits {
-  double load_Nm = 0.0;    ///< > 0; the joint yields to a larger one that shows for overload_s
+  double load_Nm = 0.0;    ///< > 0; the joint yields to a larger load that lasts for overload_s
   double notice_Nm = 0.0;  ///< > 0, at most load_Nm
 };
 
-/// What the limit of a joint follows from that is given none. All >= 0.
+/// Loads from which the default load limit of a joint follows. All >= 0.
 struct UsualLoad {
-  double gravity_Nm = 0.0;       ///< the joint's weight, at its most
-  double accelerating_Nm = 0.0;  ///< motor and link together, the harder of acceleration and deceleration
-  double configured_Nm = 0.0;    ///< to carry (initial_load_Nm) or to press with (stop_torque_Nm)
+  double gravity_Nm = 0.0;       ///< largest torque of gravity
+  double accelerating_Nm = 0.0;  ///< motor and link together, larger of acceleration and deceleration
+  double configured_Nm = 0.0;    ///< to carry (initial_load_Nm), or to press with (stop_torque_Nm)
 
-  /// With what torque limit L leaves besides acceleration A and weight G a push is yielded to before it has taken all of the torque:
+  /// The load limit, from torque limit L, acceleration A and gravity G. The joint then yields before a push takes all of the torque:
   ///
-  ///   L - G - A   [N.m], within 0.5 and 0.8 of L - G
+  ///   L - G - A   [N.m], clamped to 0.5 ... 0.8 of L - G
   ///
-  /// and at least a tenth of L, and 1.25 times the configured load. > 0 for `torque_limit_Nm` > 0, also where that is less than
-  /// the weight.
+  /// and at least a tenth of L and 1.25 times the configured load. > 0 for `torque_limit_Nm` > 0, even if that is below G.
   double limit_Nm(double torque_limit_Nm) const noexcept;
 };
 
-/// What a joint's configuration says of its load.
+/// The load limits in a joint's configuration.
 struct LoadLimitConfig {
-  std::optional<double> load_Nm;    ///< none: the usual one
-  std::optional<double> notice_Nm;  ///< none: 0.8 of the largest load
+  std::optional<double> load_Nm;    ///< none: usual.limit_Nm()
+  std::optional<double> notice_Nm;  ///< none: 0.8 of the load limit
   UsualLoad usual;
 
-  /// Under the lower of the joint's and its table's torque limit, > 0.
+  /// The limits for a torque limit > 0, the lower of the joint's and its table's.
   LoadLimits under(double torque_limit_Nm) const noexcept;
 };
 

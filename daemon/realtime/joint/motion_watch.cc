@@ -8,20 +8,20 @@ namespace strainwave {
 
 namespace {
 
-/// Spans in which a push is looked at: a joint that turns round under it stands for less.
+/// Length of a span in which a push is judged: a joint that reverses under a push stands still for less.
 constexpr double kSpan_s = 0.02;
-/// Of the time in which the joint is not blocked. Blocked for a tenth of the time, it has a root mean square of a third of its torque limit:
-/// the continuous torque of such motors (11 of 34 N.m, data/rhs17_datasheet.csv).
+/// Share of the time without blocking that is forgotten. A joint that is blocked for a tenth of the time has an RMS torque of a third of
+/// its limit. That is the continuous torque of such motors (11 of 34 N.m, data/rhs17_datasheet.csv).
 constexpr double kForgets = 0.1;
-/// Share of a span at the limit, less the time on its other side, from which on the span counts: readings that flicker leave the limit for a
-/// period.
+/// Least share of a span at the torque limit for the span to count; time at the opposite limit is subtracted. With flickering readings
+/// the torque leaves the limit for single periods.
 constexpr double kPushed = 0.5;
-/// What an encoder cannot tell.
+/// A smaller deviation is within the encoder's resolution.
 constexpr double kCountsOffTarget = 2.0;
-/// The last count is found, or given up, in less.
+/// Correcting the last count takes less, whether or not it succeeds.
 constexpr double kOffTarget_s = 1.0;
-/// A wall of 200 N.m/rad pushes a joint out in 70 ms, which then runs out and swings for some 0.3 s. What takes longer is no blow, and what a
-/// joint carries is its mean load over as long.
+/// A wall of 200 N.m/rad pushes a joint out in 70 ms; the joint then coasts and swings for some 0.3 s. A longer push is not a blow. The
+/// load that a joint carries is the mean over the same time.
 constexpr double kLongestBlow_s = 0.5;
 
 }  // namespace
@@ -32,7 +32,7 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
   begin_span(joint_position_rad, now_ns);
   moved_before_rad_ = 0.0;
   light_ns_ = now_ns;
-  judged_ns_ = now_ns - nanoseconds(kLongestBlow_s);  // the first load counts wholly
+  judged_ns_ = now_ns - nanoseconds(kLongestBlow_s);  // the first load counts fully
   yields_since_ns_ = now_ns;
   yielded_ns_.reset();
   high_load_ = false;
@@ -40,7 +40,7 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
 }
 
 Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept {
-  // Each check runs every period, whatever the other one finds.
+  // Both checks must run every period, whatever the other one finds.
   const bool stands = blocked(motion, joint_position_rad, now_ns);
   const bool heavy = overloaded(motion, now_ns);
   if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) >
@@ -50,7 +50,7 @@ Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std
   return heavy ? Fault::kOverload : Fault::kNone;
 }
 
-// Whether a span at the limit, in `direction`, was: a free joint gets on, or goes less fast against it.
+// Whether a span at the torque limit had no effect: a free joint would move in `direction`, or slow down against it.
 bool MotionWatch::pushed_in_vain(double direction, double moved_rad) const noexcept {
   const double progress_rad = config_.standstill_rad_s * span_s();
   return direction * moved_rad < progress_rad && direction * (moved_rad - moved_before_rad_) < progress_rad;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses between the supervisor's thread and the real-time thread. Plain data. Real-time safe.
+// The data exchanged between the supervisor's thread and the real-time thread. Plain data. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ enum class OrderKind : std::int32_t {
   kResetLearning,
   kFreezeLearning,
   kResumeLearning,
-  kEndStream  ///< of the owner until now: the joint comes to rest; a move or path goes on
+  kEndStream  ///< ends the previous owner's stream: the joint comes to rest; a move or path continues
 };
 
-/// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
+/// One admitted message on its way to a joint. The joint obeys orders in their sequence: a hold after a setpoint wins.
 struct Order {
   std::int64_t id = 0;  ///< quoted in the reply; 0: no reply is wanted
   OrderKind kind = OrderKind::kDisable;
@@ -42,26 +42,26 @@ struct Order {
   bool begins_stream = false;        ///< kSetpoint: the stream begins with this one
   double velocity_rad_s = 0.0;       ///< kSetpoint of a stream, with derivatives >= 1
   double acceleration_rad_s2 = 0.0;  ///< kSetpoint of a stream, with derivatives 2
-  double torque_Nm = 0.0;            ///< kSetpoint of a stream: added to what is planned
-  double load_inertia_kgm2 = 0.0;    ///< kSetpoint of a stream: carried besides the joint's own
+  double torque_Nm = 0.0;            ///< kSetpoint of a stream: added to the planned torque
+  double load_inertia_kgm2 = 0.0;    ///< kSetpoint of a stream: added to the joint's own
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
-  bool approaches = false;           ///< kSetpoint that begins a stream: from wherever the joint is
-  std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: when it was sent
+  bool approaches = false;           ///< kSetpoint that begins a stream: may begin far from the joint
+  std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: its cycle; 0: sent_us gives its time
   std::int64_t sent_us = 0;          ///< kSetpoint of a stream with at_cycle 0: on the sender's clock, > 0
-  std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
+  std::int64_t expires_cycle = -1;   ///< in a later cycle the order is too old; -1: never
   std::int64_t challenge_cycle =
-      -1;  ///< its challenge is of this one: after a fault in it or later it is too old; -1: never
+      -1;  ///< draw of its challenge: a fault in or after it makes the order too old; -1: none
   std::int32_t path_slot = 0;  ///< kLoadPath
 };
 
-/// What the loop makes of an order, and of a refusal by a number that number and the bound that it met; else both are 0:
+/// The loop's decision on an order. A refusal for a number also has that number and its bound; otherwise both are 0:
 ///   kMoving of an enable            the joint's speed, rad/s, and joint.supervision.standstill_rad_s
 ///   kOutOfRange of a setpoint       how far its at_cycle is ahead, and how far it may be, s
 ///   kFarFromJoint of a setpoint     how far from the joint its stream begins, and how far it may, rad
-///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
-///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
+///   kOutOfRange of a table          its torque or load limit, and the torque or load that the joint holds, N.m
+///   kOutOfRange of a path           how far from the joint's target it begins, and how far it may, rad
 ///   kWrongMode of a resume          joints that have their part of the path, and how many there must be
-///   kStreamEnded of a setpoint      the load that the joint yielded to, which ended its stream, and what load was allowed, N.m
+///   kStreamEnded of a setpoint      the load to which the joint yielded, which ended its stream, and the allowed load, N.m
 ///   kCycleIsOver of a setpoint      its at_cycle, and the present cycle
 ///   kVelocitiesContradict           its velocities over the rate of its positions, and 1; 0 and 0 where the positions stand
 struct Ruling {
@@ -72,7 +72,7 @@ struct Ruling {
   double limit = 0.0;
 };
 
-/// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.
+/// The outcome of an order. The real-time thread decides, because only it knows the mode in the cycle that counts.
 struct Reply {
   std::int64_t id = 0;
   Reason reason = Reason::kAccepted;
@@ -81,22 +81,22 @@ struct Reply {
   double limit = 0.0;      ///< as in Ruling
 };
 
-/// What made a joint yield, joint side.
+/// The load that made a joint yield, joint side.
 struct Yield {
-  double load_Nm = 0.0;       ///< as it showed; > 0 pushes towards negative positions
-  double limit_Nm = 0.0;      ///< > 0, what load was allowed
+  double load_Nm = 0.0;       ///< as estimated; > 0 pushes towards negative positions
+  double limit_Nm = 0.0;      ///< > 0, the allowed load
   double position_rad = 0.0;  ///< where the joint was
 };
 
-/// A change worth a line in the log: of the mode, or the begin of a yield.
+/// An event for the log: a change of mode, or the start of a yield.
 struct LoopEvent {
   std::int64_t joint = 0;
   std::int64_t cycle = 0;
   Mode from = Mode::kOff;
   Mode to = Mode::kOff;
   Fault fault = Fault::kNone;
-  std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
-  std::optional<Yield> yield{};   ///< the joint began to yield, in this mode; nothing: its mode changed
+  std::uint32_t drive_error = 0;  ///< with a fault: number from the driver or the daemon
+  std::optional<Yield> yield{};   ///< the joint began to yield in this mode; none: its mode changed
 };
 
 /// Orders of a joint that may wait for its loop.

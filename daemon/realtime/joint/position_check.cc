@@ -10,14 +10,14 @@ namespace strainwave {
 
 namespace {
 
-/// A count, where the sensor has finer ones or none.
+/// Assumed count of a sensor with finer counts or none.
 constexpr double kFinestCount_rad = 1e-5;
-/// The worst reading of a working sensor: quantisation at both ends, and sampling that is not exactly periodic.
+/// Margins for a working sensor: quantisation at both ends, and sampling that is not exactly periodic.
 constexpr double kJumpFactor = 2.0;
 constexpr double kJumpCounts = 4.0;
 /// A joint may have more friction than its table says.
 constexpr double kFrictionFactor = 1.5;
-/// Motion owed before the sensor is called stuck.
+/// Expected motion, in counts, above which an unchanged sensor is stuck.
 constexpr double kStuckCounts = 10.0;
 /// After its last change the joint may still be coming to rest under another torque.
 constexpr int kSettlingPeriods = 5;

@@ -10,7 +10,7 @@
 namespace strainwave {
 
 double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
-  // A thread beside the loop may have asked its sensor after this period's instant.
+  // Another thread may have read its sensor after this period's instant.
   return seen() ? std::max(0.0, seconds(now_ns - measured_ns_)) : -1.0;
 }
 
@@ -20,8 +20,8 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
     return TemperatureStatus::kOutOfRange;
   if (seconds(now_ns - produced_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
   if (known_) {
-    // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
-    // nothing was believed, the more may have changed, so that the signal can return.
+    // Compares with the recent past, not the last reading, so that a fast drift cannot pass in small steps. The allowed
+    // change grows with the time since the last accepted reading, so that the signal can return.
     const double silence_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
     const double allowed_C = config_.max_step_C + config_.max_rate_C_s * silence_s;
     if (std::abs(temperature_C - recent_C_) > allowed_C) return TemperatureStatus::kTooFast;

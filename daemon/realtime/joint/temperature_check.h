@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the temperature signal can be believed, and which value the schedule uses. Real-time safe; time is an argument.
+// Checks the temperature signal, and selects the value for gain scheduling. Real-time safe; time is an argument.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct TemperatureCheckConfig {
   double min_C = -40.0;  ///< plausible range of the sensor
   double max_C = 90.0;
   double max_rate_C_s = 20.0;  ///< faster lasting changes are not heat but a broken wire
-  double max_step_C = 6.0;     ///< a reading may differ by this much from the recent past whatever the rate
+  double max_step_C = 6.0;     ///< a reading may always differ by this much from the recent past
   double max_age_s = 5.0;      ///< older values are not used
   bool loss_is_fault = false;  ///< a joint under control that loses its temperature stops
 };
@@ -30,16 +30,16 @@ class TemperatureCheck {
   bool known() const noexcept { return known_; }
   /// The last plausible value; meaningful only once it is known.
   double used_C() const noexcept { return accepted_C_; }
-  /// From it to `limit_C`; NaN while the sensor says nothing plausible.
+  /// From used_C() to `limit_C`; NaN while the signal is not valid.
   double margin_C(double limit_C) const noexcept {
     return status_ == TemperatureStatus::kValid ? limit_C - accepted_C_
                                                 : std::numeric_limits<double>::quiet_NaN();
   }
-  /// The sensor's last number; none (NaN) before the first.
+  /// The sensor's last value, plausible or not; NaN before the first.
   double measured_C() const noexcept { return measured_C_; }
-  /// Whether the sensor's last number is above `limit_C`, plausible or not: what is too hot to be believed may be too hot.
+  /// Whether the sensor's last value is above `limit_C`. Includes implausible values, which may be real.
   bool hotter_than(double limit_C) const noexcept { return seen() && measured_C_ > limit_C; }
-  /// Whether the loss of the signal is to stop the joint.
+  /// Whether the loss of the signal must stop the joint.
   bool lost() const noexcept { return config_.loss_is_fault && status_ != TemperatureStatus::kValid; }
   double age_s(std::int64_t now_ns) const noexcept;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last seconds of one joint at full rate, in memory that is there from the start. The real-time thread
-// writes, plain copies, and stops writing shortly after a fault; another thread then reads it and
-// hands the memory back. write() is real-time safe.
+// Keeps the last seconds of one joint at full rate, in memory allocated at the start. The real-time thread
+// writes plain copies, and stops shortly after a fault. Another thread then reads the record and releases
+// the memory. write() is real-time safe.
 //
-//   recording -> (a fault appears: so many samples more) -> frozen -> release() -> recording
+//   recording -> (a fault appears: samples_after_fault more) -> frozen -> release() -> recording
 // While frozen nothing is recorded; the samples lost meanwhile are counted.
 #pragma once
 
@@ -77,7 +77,7 @@ class FlightRecorder {
   }
   /// Index of the sample in which the fault appeared.
   std::size_t fault_index() const noexcept { return fault_position_ - (written_ - size()); }
-  /// Samples lost before this record because the one before was still being written.
+  /// Samples lost before this record, because the previous record was still frozen.
   std::int64_t lost() const noexcept { return lost_before_; }
   void release() noexcept { phase_.store(Phase::kReleased, std::memory_order_release); }
 

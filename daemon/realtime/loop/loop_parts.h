@@ -21,7 +21,7 @@ struct LoopConfig {
   double period_s = 0.001;
   RealTimePolicy real_time = RealTimePolicy::kEnforce;
   int priority = 80;  ///< SCHED_FIFO
-  int cpu = -1;       ///< pin to this processor; -1: do not
+  int cpu = -1;       ///< processor for the thread; -1: any
   OverrunLimits overruns;
   double state_rate_Hz = 200.0;
 };

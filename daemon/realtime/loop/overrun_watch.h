@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of its periods a loop may miss. A few are noise of the machine; after a long stall, or with many in a second, the loop no
-// longer controls. Real-time safe.
+// Supervises the periods that the loop misses. A few are noise of the machine. After a long stall, or with many misses in a second,
+// the joints are no longer under control. Real-time safe.
 //
 //   one stall, from the period before to this one > stall_s     -> kLoopStalled
 //   missed > missed_share * second                              -> kPeriodsMissed
 //
-// All in periods; what was missed is forgotten within about a second:
+// All in periods. The count of missed periods decays within about a second:
 //
 //   missed := missed * (1 - elapsed / second) + skipped         a loop that always misses a share s arrives at s * second
 #pragma once
@@ -20,7 +20,7 @@ namespace strainwave {
 
 struct OverrunLimits {
   double stall_s = 0.02;      ///< > 0
-  double missed_share = 0.1;  ///< of a second's periods, in [0, 1]; 1: never
+  double missed_share = 0.1;  ///< share of a second's periods, in [0, 1]; 1: no fault
 };
 
 class OverrunWatch {
@@ -30,8 +30,8 @@ class OverrunWatch {
         stall_limit_periods_(std::max(1.0, std::round(limits.stall_s / period_s))),
         missed_limit_periods_(limits.missed_share * second_periods_) {}
 
-  /// One cycle that began after `skipped` periods were left out. The fault that this makes, or kNone; what was counted towards it
-  /// is then forgotten.
+  /// Counts a cycle that began after `skipped` periods were left out. Returns the resulting fault, or kNone. A fault resets the
+  /// count.
   Fault judge(std::int64_t skipped) noexcept {
     const auto left_out = static_cast<double>(skipped);
     const double kept = std::max(0.0, 1.0 - (1.0 + left_out) / second_periods_);

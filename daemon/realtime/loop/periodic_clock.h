@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The period: absolute sleeps on CLOCK_MONOTONIC. The only place of the real-time thread that reads a clock. Real-time safe.
+// Generates the periods by absolute sleeps on CLOCK_MONOTONIC. Only this code reads a clock in the real-time thread. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,16 @@ namespace strainwave {
 /// CLOCK_MONOTONIC now.
 std::int64_t monotonic_now_ns() noexcept;
 
-/// Keeps the processor busy for `duration_ns`; only injected faults want that.
+/// Keeps the processor busy for `duration_ns`; only injected faults use it.
 void busy_wait(std::int64_t duration_ns) noexcept;
 
 class PeriodicClock {
  public:
   struct Wake {
-    std::int64_t due_ns = 0;   ///< when it was to wake up
-    std::int64_t woke_ns = 0;  ///< when it did
-    std::int64_t instant_ns =
-        0;  ///< which of the periods' instants this cycle stands for: the one nearest to woke_ns
-    std::int64_t skipped =
-        0;  ///< periods left out: the cycle before ran past their start, or the wake-up came too late
+    std::int64_t due_ns = 0;      ///< when it should wake up
+    std::int64_t woke_ns = 0;     ///< when it did
+    std::int64_t instant_ns = 0;  ///< start of the period nearest to woke_ns: the cycle stands for it
+    std::int64_t skipped = 0;     ///< periods left out, because the previous cycle or the wake-up was late
   };
 
   explicit PeriodicClock(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
@@ -28,8 +26,8 @@ class PeriodicClock {
   /// The first cycle begins one period from now.
   void start() noexcept { next_ns_ = monotonic_now_ns() + period_ns_; }
 
-  /// Sleeps until the next cycle begins. A cycle that is already over is skipped, never squeezed in. Instants are whole periods
-  /// apart; the next cycle says how many were skipped before it, whatever the cause.
+  /// Sleeps until the next cycle begins. Missed cycles are skipped, never caught up. Instants are whole periods apart; `skipped`
+  /// counts all periods missed before this cycle.
   Wake wait() noexcept;
 
  private:

@@ -30,7 +30,7 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
                                                   std::move(joint.actuator), *replies_, *events_));
     recorders_.push_back(std::move(joint.recorder));
     if (recorders_.back() != nullptr) joints_.back()->record_into(*recorders_.back());
-    // One more second than the slowest joint may take, which by then has faulted and is off.
+    // One second more than the slowest joint may take to stop. By then it has faulted and is off.
     const double allowed_s = joint.config.stop_timeout_s + 1.0;
     stop_deadline_periods_ =
         std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.period_s));

@@ -22,21 +22,21 @@
 
 namespace strainwave {
 
-/// Written by the loop, read by anybody.
+/// Written by the loop, readable by all threads.
 struct LoopTotals {
   std::atomic<std::int64_t> cycles{0};  ///< executed
-  std::atomic<std::int64_t> cycle{0};   ///< number of the present one: skipped ones count
+  std::atomic<std::int64_t> cycle{0};   ///< number of the present cycle, skipped ones included
   std::atomic<std::int64_t> overruns{0};
   std::atomic<std::int64_t> page_faults{0};
   Histogram wakeup_latency;
   Histogram execution_time;
   Histogram period_error;
-  Histogram position_delay;  ///< of all joints with drives that let it be measured
+  Histogram position_delay;  ///< of all joints whose drives measure it
 };
 
 class RealtimeLoop {
  public:
-  /// Takes over the buses and drives. `states` is where records go.
+  /// Takes over the buses and drives. Writes records to `states`.
   RealtimeLoop(const LoopConfig& config, LoopParts parts, decltype(OutboundMemory::states)& states);
   /// Stops and joins.
   ~RealtimeLoop();
@@ -47,14 +47,14 @@ class RealtimeLoop {
   /// configuration enforces it; otherwise real_time_refusal() says what was refused.
   void start();
   const std::string& real_time_refusal() const noexcept { return refusals_.real_time; }
-  /// What would have made wake-ups better but is not needed for real time; empty when granted.
+  /// Why sleep states cannot be avoided, which would reduce latency but is not needed for real time; empty when granted.
   const std::string& sleep_state_refusal() const noexcept { return refusals_.sleep_states; }
 
   /// Brings every joint to rest, then ends the loop; then finished() is true.
   void request_stop() noexcept { signals_.stop_requested.store(true, std::memory_order_release); }
   bool finished() const noexcept { return signals_.finished.load(std::memory_order_acquire); }
 
-  /// After finished(): leaves the drives on buses in order, before their supervision of us runs out.
+  /// Call after finished(): closes the buses before the drives' supervision of the daemon times out.
   void close_buses();
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
@@ -68,19 +68,19 @@ class RealtimeLoop {
   const LoopTotals& statistics() const noexcept { return *statistics_; }
 
  private:
-  /// In words; empty when granted.
+  /// Texts for the user; empty when granted.
   struct Refusals {
     std::string real_time;
     std::string sleep_states;
   };
-  /// Between the threads.
+  /// Flags between the threads.
   struct Signals {
     std::atomic<bool> set_up{false};
     std::atomic<bool> may_run{false};
     std::atomic<bool> stop_requested{false};
     std::atomic<bool> finished{false};
   };
-  /// Of the loop's own thread.
+  /// Used only by the loop's thread.
   struct Progress {
     std::int64_t previous_wake_ns = 0;
     std::int64_t next_publish_cycle = 0;

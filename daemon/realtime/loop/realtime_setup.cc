@@ -27,7 +27,7 @@ std::string error_text(int error) {
   return std::generic_category().message(error);
 }
 
-/// What /proc/self/status says under `name`; empty when it does not.
+/// The value of `name` in /proc/self/status; empty if there is none.
 std::string own_status(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -48,7 +48,7 @@ std::string pin_this_thread(int cpu) {
          "; name one of these, or give it this one (container: --cpuset-cpus, service: AllowedCPUs)";
 }
 
-// Pages of the stack that the loop may reach exist before it starts.
+// Maps the stack's pages that the loop may reach, before it starts.
 __attribute__((noinline)) void touch_stack() {
   std::array<char, kStackToTouch> stack;
   volatile char* page = stack.data();

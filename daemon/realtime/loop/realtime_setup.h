@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Linux must grant before a loop can be real-time. Not real-time itself: called before the first period.
+// Requests from Linux what a real-time loop needs. Not real-time itself: called before the first period.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace strainwave {
 /// what was refused and what to do.
 std::string lock_memory();
 
-/// What to do about a kernel that moves locked pages to make room for large ones; empty when it does not, or does not say
+/// Advice if the kernel moves locked pages to make room for large ones. Empty if it does not, or if the setting cannot be read
 /// (the unit hides /proc/sys).
 std::string compaction_warning(const std::string& setting_path = "/proc/sys/vm/compact_unevictable_allowed");
 
@@ -20,12 +20,12 @@ std::string compaction_warning(const std::string& setting_path = "/proc/sys/vm/c
 /// when granted, else what was refused and what to do.
 std::string make_thread_real_time(int priority, int cpu);
 
-/// Why no thread of this process may run on `cpu`, and what to do; empty when one may, or `cpu` is negative. Asks the kernel from a
-/// thread of its own, so that nothing changes.
+/// Why no thread of this process may run on `cpu`, and what to do; empty when one may, or `cpu` is negative. Tests it in a temporary
+/// thread, so that nothing changes.
 std::string processor_problem(int cpu);
 
-/// Keeps the processors out of deep sleep states while the descriptor stays open: their wake-up would add to every period. `refusal`
-/// is empty when that is granted, else why not and what to do; a machine without that file (a virtual one) has nothing to ask for.
+/// Keeps the processors out of deep sleep states while the descriptor stays open: their exit times would add latency to every period.
+/// `refusal` is empty when granted, else why not and what to do. It is also empty on a machine without that file, such as a virtual one.
 UniqueFd avoid_sleep_states(std::string& refusal, const std::string& file = "/dev/cpu_dma_latency");
 
 /// Page faults of the calling thread so far, minor and major. Real-time safe.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Of the controller, on the drive's side.
+// The controller's target, as the drive counts positions.
 double target_rad(const JointInLoop& joint) noexcept {
   return joint.ordered.on_path() ? joint.zero.to_drive_rad(joint.path->path.last().position_rad)
                                  : joint.law.controller().plan().trajectory().target_rad();
@@ -82,7 +82,7 @@ void fill_record(const JointInLoop& joint, const CycleTime& time, StateRecord& r
   state.notices = joint.notices;
   state.faults_total = joint.mode.faults_total();
   state.late_samples = joint.stream.late_samples;
-  // The drive may forget; what it said when the fault came is what explains it.
+  // The drive may forget its error. The number that came with the fault explains it.
   state.drive_error =
       joint.mode.is(Mode::kFaulted) ? joint.mode.drive_error() : joint.drive.reading().drive_error;
   record.temperature_measured_C = temperature.measured_C();

@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).
+/// Fills every field except joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).
 void fill_record(const JointInLoop& joint, const CycleTime& time, StateRecord& record) noexcept;
 
 /// The same cycle for the flight recorder.

@@ -68,7 +68,7 @@ void PathFollower::advance(const CycleTime& time) noexcept {
     if (travels_[travel].phase != Phase::kFree) advance(travel, time);
 }
 
-// Orders and faults may have come in the cycle of the order to begin.
+// Checks again, because orders and faults may have come after the order to begin, in the same cycle.
 bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept {
   bool all = true;
   for_each_member(travel, [&](JointInLoop& joint, Member&) {
@@ -113,7 +113,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     const Reference on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
     joint.law.controller().follow_path(joint.zero.to_drive_rad(on.position_rad), on.velocity_rad_s,
                                        time.elapsed_periods, joint.reachable_range());
-    // Of the setpoint in the same state: the reference reaches the present point one period later, or more.
+    // The path time that belongs to the setpoint in the same state: the reference lags by one period and lead_s().
     const double later_periods = 1.0 + joint.law.controller().plan().lead_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
     joint.ordered.note({shown.time_s, travel.clock.is_to_rest() && shown.rate == 0.0});
@@ -123,7 +123,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   free(index);
 }
 
-// Those that are still on the path.
+// Stops the joints that are still on the path.
 void PathFollower::stop_each(std::size_t travel) noexcept {
   for_each_member(travel, [](JointInLoop& joint, Member&) {
     if (!joint.ordered.on_path()) return;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock
-// (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between.
-// A joint may follow its plan later than another, by its delay, its jerk limit or its spring. The slowest gets the clock's own time, each other
-// an earlier one: the joints are together, their setpoints are not. Real-time safe.
+// Moves joints along paths: tracks which joints belong together, and computes the setpoint of each. The joints of a path share
+// one clock (control/trajectory/path_clock.h): they start, pause, resume and arrive in the same cycle, and stay on the path in
+// between. A joint lags its plan by its delay, jerk limit or spring. The joint with the largest lag gets the clock's time, the
+// others an earlier time. So the joints are synchronised, although their setpoints are not. Real-time safe.
 //
 //   resume   -> all joints of the path begin in the next cycle, or none
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow
 //   one joint is lost (hold, disable, fault, yield, another order)
 //            -> each of the others stops on its own in the next cycle, and the path is over
 //
-// So it is after a gap of more than kMaxElapsedPeriods in which the loop did not run.
+// The joints also stop after a gap of more than kMaxElapsedPeriods in which the loop did not run.
 #pragma once
 
 #include <cstddef>
@@ -34,28 +34,28 @@ class PathFollower {
   PathFollower(const PathFollower&) = delete;
   PathFollower& operator=(const PathFollower&) = delete;
 
-  /// Starts the path that `joint` has a part of, with all of its joints, or goes on with it.
+  /// Starts the path that `joint` is part of, with all its joints, or resumes it.
   Ruling resume(std::size_t joint) noexcept;
   Ruling pause(std::size_t joint) noexcept;
 
-  /// Before the joints' own steps: gives each one on a path its setpoint.
+  /// Gives each joint on a path its setpoint. Call it before the joints' own steps.
   void advance(const CycleTime& time) noexcept;
 
  private:
   enum class Phase { kFree, kBeginning, kUnderWay };
-  /// One path that is travelled.
+  /// One path in progress.
   struct Travel {
     Phase phase = Phase::kFree;
     PathClock clock;
-    PathTimes times;                   ///< of the clock
-    double most_behind_periods = 0.0;  ///< of its members
+    PathTimes times;                   ///< recent times of the clock
+    double most_behind_periods = 0.0;  ///< largest of its members
     double duration_s = 0.0;
   };
-  /// A joint's place on it.
+  /// A joint's part in a travel.
   struct Member {
-    std::optional<std::size_t> travel;  ///< nothing: it is on none
+    std::optional<std::size_t> travel;  ///< none: the joint is on no path
     PathReader reader;
-    double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
+    double behind_periods = 0.0;  ///< lag of the slowest joint minus that of this one
   };
   template <typename Act>
   void for_each_member(std::size_t travel, const Act& act) noexcept;
@@ -71,7 +71,7 @@ class PathFollower {
   std::span<const std::unique_ptr<JointLoop>> joints_;
   double period_s_;
   std::vector<Member> members_;  ///< by joint
-  std::vector<Travel> travels_;  ///< by the joint that was ordered to begin
+  std::vector<Travel> travels_;  ///< by the joint that got the order to begin
 };
 
 }  // namespace strainwave

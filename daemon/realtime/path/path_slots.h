@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands a path from the supervisor's thread to a joint's loop: two slots. The loop uses one at most while the supervisor fills the
-// other. The loop's side is real-time safe.
+// Hands a path from the supervisor's thread to a joint's loop, through two slots. The loop uses at most one of them while the
+// supervisor fills the other. The loop's side is real-time safe.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace strainwave {
 /// One joint's part of a path.
 struct LoadedPath {
   std::int64_t id = 0;           ///< of the path, the same for all of its joints
-  std::int32_t joint_count = 0;  ///< that it has
+  std::int32_t joint_count = 0;  ///< number of joints of the path
   KnotPath path;
 };
 
 class PathSlots {
  public:
   // Supervisor's thread.
-  /// The place to name in the order that brings `path`; nothing while the loop has not looked at the last one.
+  /// Copies `path` into a slot and returns its number for the order. Nothing while the loop has not judged the previous path.
   std::optional<std::int32_t> hand_over(const LoadedPath& path) {
     if (handed_ != judged_.load(std::memory_order_acquire)) return std::nullopt;
     const std::int32_t slot = used_.load(std::memory_order_acquire) == 0 ? 1 : 0;
@@ -31,15 +31,15 @@ class PathSlots {
     ++handed_;
     return slot;
   }
-  /// The order could not be given.
+  /// Undoes hand_over(), because the order could not be queued.
   void take_back() { --handed_; }
 
   // Real-time thread.
   const LoadedPath& at(std::int32_t slot) const noexcept { return slots_[static_cast<std::size_t>(slot)]; }
-  /// In use until the next use() or drop().
+  /// The slot stays in use until the next use() or drop().
   void use(std::int32_t slot) noexcept { used_.store(slot, std::memory_order_release); }
   void drop() noexcept { used_.store(kNone, std::memory_order_release); }
-  /// The order was obeyed or refused; use() comes before.
+  /// The order was obeyed, after use(), or refused.
   void judged() noexcept {
     judged_.store(judged_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
