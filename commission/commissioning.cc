@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-// Of the ordered torque, in the mean over this time: longer than drives filter the torque that they report.
+// Least share of the ordered torque that a drive gives, in means over this time. Drives filter the reported torque for a shorter time.
 constexpr double kGiven = 0.9;
 constexpr double kReported_s = 0.02;
 
@@ -47,7 +47,7 @@ std::string text_of(const CommissionValue& value) {
                      value.unit, value.used);
 }
 
-/// An order that is cut off looks like a heavier joint. Of both the mean over some time: a drive may filter what it reports.
+/// A drive that limits the torque makes the joint look heavier. Means are compared, since a drive may filter the reported torque.
 std::string find_torque_that_is_not_given(const JointTrace& trace) {
   const double share = trace.period_s / (kReported_s + trace.period_s);
   double ordered_Nm = 0.0;
@@ -70,7 +70,7 @@ std::string find_torque_that_is_not_given(const JointTrace& trace) {
       given_Nm, ordered_Nm);
 }
 
-/// Of what a table needs.
+/// Names of the numbers that a table needs and `motion` does not have.
 std::string missing_in(const MotionEstimates& motion) {
   std::string names;
   const auto name = [&](const std::optional<IntervalEstimate>& found, const char* key) {
@@ -107,7 +107,7 @@ std::optional<std::string> Commissioning::begin() {
   begun_ = true;
   if (step_ == Step::kEnd || !record_.problem.empty()) return std::nullopt;
   const bool pure = step_ == Step::kIdentity || step_ == Step::kComparison;
-  // A motor may have been wired anew since: what moves under feedback comes after the ramps of the same run.
+  // The motor may have been rewired since. Motion under feedback therefore needs ramps in the same run.
   const bool ramps = part_of(step_) == ExcitationPart::kRamps;
   const bool moves_later = !done(name_of(Step::kFriction)) || !done(name_of(Step::kMotion));
   resumed_ = !pure && done(name_of(step_)) && !(ramps && moves_later);
@@ -170,13 +170,13 @@ std::string Commissioning::finish() {
     JointTrace& kept = part_of(step_) == ExcitationPart::kRamps ? ramps_ : strokes_;
     if (kept.samples.empty())
       kept = trace;
-    else  // the joint rests where the two meet
+    else  // the joint rests between the two traces
       kept.samples.insert(kept.samples.end(), trace.samples.begin(), trace.samples.end());
     if (failure.empty()) failure = excitation_->problem();
     if (failure.empty()) failure = find_torque_that_is_not_given(trace);
     excitation_.reset();
   }
-  // What was seen before an abort may be of one direction or speed alone: only a whole step gives results.
+  // A trace up to an abort may show one direction or speed only. Therefore only a complete step gives results.
   std::string text;
   if (failure.empty()) text = evaluate();
   if (!failure.empty()) {
@@ -277,7 +277,7 @@ std::string Commissioning::find_motion() {
         "{}: not known to 5 %, since the link hardly swings: give a larger range, speed or torque limit, or "
         "attach the load; a load below a third of the motor's inertia takes them from data sheets",
         missing_in(*found));
-  // Again, without the torque that changed the speed, where the steady strokes are of this run.
+  // Friction again, without the accelerating torque. If the steady strokes are of an earlier run, this finds fewer speeds and is not used.
   if (const std::vector<FrictionAtSpeed> friction =
           find_friction(strokes_, friction_search(config_.told.gear_ratio, found));
       friction.size() >= record_.friction.size())

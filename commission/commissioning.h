@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps from a joint that is configured and unknown to one that is measured. Those that move it are stepped once a period, as
-// Excitation is; between them the drive is disabled, and what was seen is evaluated. Joint side, SI. Not real-time, but for step().
+// Measures a configured joint in steps. A step that moves the joint runs once a period, as Excitation does. Between steps the drive is
+// disabled, and the trace is evaluated. Joint side, SI. Not real-time, except step().
 //
-//   identity    what start-up of the drive compared
-//   direction   slow ramps of torque, both ways, twice, until the joint moves
-//   breakaway   the same ramps: torque at which it began to move
+//   identity    the comparisons at the start-up of the drive
+//   direction   slow torque ramps until the joint moves, twice each way
+//   breakaway   the torque at which it began to move in these ramps
 //   friction    strokes at steady speeds
 //   motion      strokes with a sum of sines: inertias, spring, delay, gravity
-//   comparison  of what is configured with what was measured
+//   comparison  configured against measured values
 //
-// A step that fails is the last one.
+// The first step that fails ends the commissioning.
 #pragma once
 
 #include <memory>
@@ -26,11 +26,11 @@ namespace strainwave {
 struct CommissioningConfig {
   std::string joint;
   std::string configuration;       ///< path of the file
-  std::string configuration_text;  ///< what is in it
+  std::string configuration_text;  ///< contents of the file
   bool simulated = false;
-  std::string identity;         ///< what start-up of the drive found
-  std::string direction_key;    ///< where a wrong direction is put right, in words
-  ExcitationConfig excitation;  ///< its part is set by the step
+  std::string identity;         ///< result of the comparisons at start-up
+  std::string direction_key;    ///< what corrects a wrong direction, in words
+  ExcitationConfig excitation;  ///< each step sets its part
   ToldJoint told;
   ConfiguredNumbers configured;
 };
@@ -39,23 +39,23 @@ class Commissioning {
  public:
   enum class Step { kIdentity, kDirection, kBreakaway, kFriction, kMotion, kComparison, kEnd };
 
-  /// Goes on where `before`, if there is one, ended: its steps that are done are not made again, but for those that move nothing.
-  /// Throws InputError where a limit is too small for the motion.
+  /// Continues `before` if it has the same joint and configuration. Completed steps are not repeated, except those without motion, and
+  /// ramps before other motion. Throws InputError if a limit is too small for the motion.
   explicit Commissioning(const CommissioningConfig& config,
                          std::optional<CommissionRecord> before = std::nullopt);
 
-  /// Begins the next step. What it does and within which limits; nothing where none is left, or one has failed.
+  /// Begins the next step. Returns its description with the limits; nothing if no step is left or one has failed.
   std::optional<std::string> begin();
-  /// The step moves the joint: it is to be stepped until this is false, with the drive's power.
+  /// True while the step moves the joint. The caller then enables the drive and calls step() once a period.
   bool moves() const { return excitation_ != nullptr && !excitation_->ended(); }
   /// One period. Allocates nothing unless the step ends early.
   ActuatorCommand step(const ActuatorReading& reading);
-  /// Brakes and ends the step, and all.
+  /// Brakes, and ends the step and the commissioning.
   void abort(const std::string& why);
-  /// After the step has ended and the drive is disabled: evaluates it. One line: name, outcome, result.
+  /// Evaluates a step that has ended, with the drive disabled. Returns one line: name, outcome, result.
   std::string finish();
 
-  /// Ends with empty `problem` where all is well.
+  /// Its `problem` is empty while all is well.
   const CommissionRecord& record() const { return record_; }
 
  private:
@@ -75,7 +75,7 @@ class Commissioning {
   bool resumed_ = false;  ///< the present step was done before
   std::unique_ptr<Excitation> excitation_;
   JointTrace ramps_;
-  JointTrace strokes_;  ///< steady ones, then the shaken ones
+  JointTrace strokes_;  ///< steady strokes, then shaken ones
 };
 
 }  // namespace strainwave

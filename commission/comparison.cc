@@ -15,12 +15,12 @@ namespace strainwave {
 namespace {
 
 constexpr double kMostFactor = 1.3;
-// Factors of several numbers that one cause explains agree to this: with the ratio the stiffness in data/gears.csv changes, too.
+// Factors with one common cause agree within this factor. With the ratio, the stiffness in data/gears.csv changes, too.
 constexpr double kSameFactor = 1.3;
 // A delay is configured in whole periods.
 constexpr double kDelayTolerance_periods = 0.75;
 constexpr double kZeroTolerance_rad = 0.3;
-// Half an interval, of a gravity that is believed: friction that varies along the way looks like a weight, known to 0.4 of it at best.
+// Largest half interval of a reported gravity, as a share of it. Friction that varies with position looks like a weight with 0.4 or more.
 constexpr double kGravityKnownShare = 0.25;
 
 constexpr const char* kMotorKey = "motor_inertia_kgm2";
@@ -28,7 +28,7 @@ constexpr const char* kLoadKey = "load_inertia_kgm2";
 constexpr const char* kStiffnessKey = "stiffness_Nm_rad";
 constexpr const char* kZeroKey = "control.gravity_zero_rad";
 constexpr const char* kPeriods = "periods";
-// Of what has no key.
+// Names of numbers without a key.
 constexpr const char* kTotal = "inertia of motor and load";
 constexpr const char* kResonance = "resonance";
 
@@ -36,14 +36,14 @@ bool same(double a, double b) {
   return std::max(a / b, b / a) < kSameFactor;
 }
 
-/// What is configured over what is measured; 0: one of them is missing.
+/// Configured over measured value; 0: one of them is missing.
 double factor_of(const std::vector<CommissionValue>& values, const char* key) {
   const CommissionValue* const found = find_value(values, key);
   return found == nullptr ? 0.0 : found->configured.value_or(0.0) / found->measured.value;
 }
 
-/// The factor by which a wrong scale of torque or position explains all: link and spring agree, and so does the motor, or it fits as
-/// it is, since its inertia at the joint was computed with the same ratio.
+/// The common factor of link and spring, which shows a wrong scale of torque or position. The motor must share it, or have a factor of 1:
+/// its configured inertia at the joint was then computed with the same ratio.
 std::optional<double> wrong_scale(const std::vector<CommissionValue>& values) {
   const double link = factor_of(values, kLoadKey);
   const double spring = factor_of(values, kStiffnessKey);
@@ -123,7 +123,7 @@ std::string find_wrong(const std::vector<CommissionValue>& values, double gear_r
         "and {:.1f} fits, or the torque constant or the counts per revolution are {:.2f} times the right "
         "ones",
         kLoadKey, kStiffnessKey, *factor, gear_ratio, gear_ratio * std::sqrt(*factor), 1.0 / *factor);
-  // What follows from both inertias is said where one of them is not measured.
+  // The total inertia is reported only if one of the two inertias is missing.
   const bool both = factor_of(values, kMotorKey) > 0.0 && factor_of(values, kLoadKey) > 0.0;
   std::string text;
   for (const CommissionValue& value : values)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the configuration says of a joint against what was measured of it. Joint side, SI. Not real-time.
+// Compares the configuration of a joint with its measurement. Joint side, SI. Not real-time.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace strainwave {
 
-/// Nothing: it is not in the configuration.
+/// Numbers of the configuration; nothing: the configuration does not have it.
 struct ConfiguredNumbers {
   std::optional<double> motor_inertia_kgm2;
   std::optional<double> load_inertia_kgm2;
@@ -25,17 +25,17 @@ struct ConfiguredNumbers {
   double period_s = 0.0;
 };
 
-/// All that `motion` has, in the configuration's order.
+/// Configured and measured value of each number that `motion` shows, in the configuration's order.
 std::vector<CommissionValue> compare_with(const ConfiguredNumbers& configured, const MotionEstimates& motion);
 
-/// Whether the two differ by 30 %, beyond the interval of the measurement.
+/// Whether the two differ by more than 30 % beyond the interval of the measurement. Delay and gravity zero have absolute tolerances.
 bool differs(const CommissionValue& value);
 
-/// Names the numbers of the configuration that are wrong, and what is measured; empty where none is. Where inertias and spring are off by
-/// one factor, it is torque or position that has the wrong scale.
+/// Names the wrong numbers of the configuration with the measured values; empty if there are none. If inertias and spring are wrong by
+/// the same factor, the text names a wrong scale of torque or position instead.
 std::string find_wrong(const std::vector<CommissionValue>& values, double gear_ratio);
 
-/// Says so where the measured delay is longer than a table can have; empty where it is not.
+/// Explains that the measured delay is longer than a table allows; empty if it is not.
 std::string find_late(const std::vector<CommissionValue>& values);
 
 }  // namespace strainwave

@@ -14,33 +14,33 @@ namespace strainwave {
 
 namespace {
 
-// Of the torque of breaking away, sliding takes between this, warm, and almost all, cold: data/friction_parameters.csv.
+// Sliding takes between this share of the breakaway torque, when warm, and almost all of it, when cold (data/friction_parameters.csv).
 constexpr double kSlidingShare = 0.5;
-// Ramps to the torque limit in this time: a count of delay between order and motion is then a small part of the torque.
+// Duration of a ramp to the torque limit. The torque then rises little between breakaway and the first count that shows it.
 constexpr double kRamp_s = 3.0;
-constexpr std::size_t kRamps = 4;  // both ways, twice
-// The speed loop's bandwidth. Its speed is a mean over 32 ms, which leaves little of the gear's resonance.
+constexpr std::size_t kRamps = 4;  // twice each way
+// Bandwidth of the speed loop. Its speed is a mean over 32 periods, which suppresses the gear's resonance.
 constexpr double kBandwidth_rad_s = 10.0;
 constexpr double kIntegral_per_s = 4.0;
-// Of what was needed against stiction, this is kept for the motion that follows.
+// Share of the torque against stiction that is kept for the motion that follows.
 constexpr double kStickingShare = 0.25;
-// Over the planned speed.
+// Ratio to the planned speed from which a joint is too fast.
 constexpr double kTooFast = 1.4;
-// Motor and link over what was told: three times the motor's inertia as a load, and the told one a third of the motor's.
+// Largest total inertia over the configured motor inertia. The motor may have three times that, and the load three times the motor's.
 constexpr double kMostInertia = 12.0;
 constexpr std::size_t kMean = 32;
 constexpr std::size_t kQuickMean = 8;
-// Root mean square of the acceleration by which the first shaken stroke shakes, of a joint of the told inertia.
+// Root mean square of the acceleration in the first shaken stroke, for a joint with twice the configured motor inertia.
 constexpr double kFirstShake_rad_s2 = 4.0;
-// Three standard deviations of the speed's swing take this share of what is between the stroke's speed and sticking.
+// Three standard deviations of the speed's swing take this share of the difference between the stroke's speed and sliding speed.
 constexpr double kSwingShare = 0.8;
 constexpr double kBraked_rad_s = 0.01;
 constexpr double kLongestBraking_s = 1.5;
-// Of the speed limit: a joint that speeds up by so much while it is braked has its feedback turned round.
+// Share of the speed limit. A joint that gains this much speed while it is braked has a feedback of the wrong sign.
 constexpr double kRunsAway = 0.25;
-// Of the torque limit: a joint that sticks at this much is blocked.
+// Share of the torque limit at which a joint that sticks is blocked.
 constexpr double kBlocked = 0.95;
-// Of the torque limit: less does not turn a joint that friction holds.
+// Share of the torque limit. A joint that moves against a smaller torque falls, or is moved from outside.
 constexpr double kFalls = 0.01;
 
 }  // namespace
@@ -86,7 +86,7 @@ ActuatorCommand Excitation::step(const ActuatorReading& reading) {
   const bool runs = braked && runs_away();
   if (wrong && (!braked || guard_.blind())) abort(*wrong);
   if (runs) abort("the joint speeds up while it is braked");
-  // Then it is disabled at once, not braked; while the brake opens, the torque is still 0.
+  // In these cases the drive is disabled at once instead of braking the joint. While the holding brake opens, the torque stays 0.
   const bool obeys = reading.drive_state == DriveState::kEnabled && !reading.brake_shut;
   if (reading.fault != ActuatorFault::kNone || guard_.blind() || runs ||
       (stage_ == Stage::kBraking && !obeys)) {
@@ -127,7 +127,7 @@ double Excitation::torque_Nm(double position_rad, double speed_rad_s) {
   return 0.0;
 }
 
-/// Raises the torque until the joint slides, lets it stop, and does the same the other way.
+/// Raises the torque until the joint slides, lets it stop, and repeats this the other way.
 double Excitation::ramp_Nm(double position_rad) {
   const double way = done_ % 2 == 0 ? 1.0 : -1.0;
   const long rest = std::lround(0.25 / config_.period_s);
@@ -175,11 +175,11 @@ double Excitation::stroke_Nm(double position_rad, double speed_rad_s) {
   const double left = stroke.to_rad - position_rad;
   const double way = left > 0.0 ? 1.0 : -1.0;
   const double most = config_.limits.acceleration_rad_s2;
-  // The speed from which half of the acceleration allowed brakes to rest at the target.
+  // From this speed, half of the allowed acceleration brakes the joint to rest at the target.
   const double wanted = way * std::min(stroke.speed_rad_s, std::sqrt(most * std::abs(left)));
   const double before = planned_rad_s_;
   planned_rad_s_ += std::clamp(wanted - before, -most * config_.period_s, most * config_.period_s);
-  // There, half of the speed is left, and the next stroke begins.
+  // At this distance half of the speed is left, and the next stroke begins.
   if (std::abs(left) < stroke.speed_rad_s * stroke.speed_rad_s / (4.0 * most)) {
     next_stroke();
     return follow_Nm(speed_rad_s, 0.0);
@@ -202,8 +202,8 @@ void Excitation::next_stroke() {
   if (++done_ == strokes_.size()) stage_ = Stage::kReturning;
 }
 
-/// Towards the planned speed. Friction and load are held by an integral of their own for each direction of the motion. A joint that
-/// sticks gets more and more besides, as in a ramp, until it slides.
+/// Torque that drives the joint to the planned speed. One integral for each direction of motion holds friction and load. A joint that
+/// sticks gets an additional torque, which rises as in a ramp until the joint slides.
 double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   const double gain = inertia_kgm2_ * kBandwidth_rad_s;
   const double error = planned_rad_s_ - speed_rad_s;
@@ -211,7 +211,7 @@ double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   const double way = planned_rad_s_ > 0.0 ? 1.0 : -1.0;
   const double feedback = gain * error + inertia_kgm2_ * acceleration_rad_s2;
   const double slides = 0.5 * sliding_speed_rad_s(config_.gear_ratio);
-  // A joint that still goes the other way, or much too fast, is braked by its friction: the load alone is held.
+  // Friction brakes a joint that still moves the other way, or much too fast. Therefore only the load is held.
   const double load = 0.5 * (hold_Nm_[0] + hold_Nm_[1]);
   if (quick_rad_s_ * way < -slides) return load + feedback;
   double& hold = hold_Nm_[way > 0.0 ? 0 : 1];
@@ -233,7 +233,7 @@ double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
 }
 
 double Excitation::shake_Nm(double position_rad) {
-  // Over two periods: a longer mean would hide a part of a fast resonance.
+  // The mean speed over two periods. A longer mean would hide part of a fast resonance.
   const JointSample& before = trace_.samples[trace_.samples.size() - 2];
   const double speed_rad_s = (position_rad - before.motor_position_rad) / (2.0 * config_.period_s);
   shake_squares_ += std::pow(speed_rad_s - planned_rad_s_, 2);
@@ -241,7 +241,7 @@ double Excitation::shake_Nm(double position_rad) {
   return shake_rms_Nm_ * sines_.step();
 }
 
-/// After a stroke: as much as the motion around the next one's speed allows.
+/// After a shaken stroke, scales the shaking to the swing that the next stroke's speed allows.
 void Excitation::adapt_shaking() {
   sines_.restart();
   if (const std::optional<double> inertia = sines_.inertia_kgm2())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves a joint of which little is known so that its trace shows what it is: stepped once a period, it takes a reading and returns an
-// order. Slow ramps find the torque of breaking away and its sign. Strokes at steady speeds show friction. Strokes with a sum of sines on
-// the torque show inertias and spring, around a steady motion, where stiction has no part. Joint side, SI. Not real-time.
+// Moves a little-known joint so that its trace shows its parameters. Once a period, step() takes a reading and returns a command. Slow
+// ramps find the breakaway torque and its sign. Strokes at steady speeds show friction. Strokes with a sum of sines on the torque show
+// inertias and spring around a steady motion, without stiction. Joint side, SI. Not real-time.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace strainwave {
 
-/// What of the motion is made.
+/// Which part of the motion runs.
 enum class ExcitationPart {
   kAll,
-  kRamps,          ///< torque of breaking away
+  kRamps,          ///< breakaway torque
   kSteadyStrokes,  ///< friction
   kShakenStrokes,  ///< inertias and spring
 };
@@ -30,20 +30,20 @@ struct ExcitationConfig {
   double period_s = 0.001;
   double encoder_resolution_rad = 0.0;
   double gear_ratio = 0.0;
-  double motor_inertia_kgm2 = 0.0;  ///< within a factor of three
-  double start_rad = 0.0;           ///< where the joint rests without torque; it comes back to it
-  double longest_s = 180.0;         ///< it ends then; room for the trace is taken before
+  double motor_inertia_kgm2 = 0.0;  ///< right to a factor of three
+  double start_rad = 0.0;           ///< where the joint rests without torque, and returns at the end
+  double longest_s = 180.0;         ///< time limit; the trace is allocated for it
 };
 
-/// A stretch at one speed.
+/// A motion at one speed.
 struct Stroke {
   double to_rad = 0.0;
   double speed_rad_s = 0.0;  ///< > 0
   bool shaken = false;       ///< with the sum of sines
 };
 
-/// Strokes of a range and part: steady speeds there and back, slow ones first, then shaken ones. Throws InputError where the range or the speed
-/// limit is too small for them, naming what is wanted.
+/// Plans the strokes of a part: two slow shaken ones, steady speeds there and back from slow to fast, then shaken ones. Throws InputError
+/// with the requirement if start, range, speed limit or acceleration does not allow them.
 std::vector<Stroke> plan_strokes(const ExcitationConfig& config);
 
 class Excitation {
@@ -53,14 +53,14 @@ class Excitation {
   /// Throws InputError.
   explicit Excitation(const ExcitationConfig& config);
 
-  /// One period. It allocates nothing unless it ends early.
+  /// Runs one period. Allocates nothing unless the motion ends early.
   ActuatorCommand step(const ActuatorReading& reading);
 
   bool ended() const { return stage_ == Stage::kDone; }
-  /// Why it ended early; empty: it did not.
+  /// Why the motion ended early; empty if it did not.
   const std::string& problem() const { return problem_; }
   Stage stage() const { return stage_; }
-  /// Brakes and ends, as where a limit is passed.
+  /// Brakes and ends the motion, as after a violated limit.
   void abort(const std::string& why);
 
   const JointTrace& trace() const { return trace_; }
@@ -85,17 +85,17 @@ class Excitation {
   JointTrace trace_;
   std::string problem_;
   Stage stage_ = Stage::kEnabling;
-  std::size_t done_ = 0;             ///< ramps or strokes
+  std::size_t done_ = 0;             ///< completed ramps or strokes
   long stage_periods_ = 0;           ///< since the ramp, stroke or stage began
-  double quick_rad_s_ = 0.0;         ///< over few periods, for what must be seen soon
-  double planned_rad_s_ = 0.0;       ///< speed that is followed
-  double braked_from_rad_s_ = 0.0;   ///< its size when braking began
+  double quick_rad_s_ = 0.0;         ///< mean over few periods, for fast reactions
+  double planned_rad_s_ = 0.0;       ///< speed setpoint
+  double braked_from_rad_s_ = 0.0;   ///< absolute speed when braking began
   double inertia_kgm2_;              ///< of motor and link
-  std::array<double, 2> hold_Nm_{};  ///< integral of the speed's error, by direction: friction and load
-  double sticking_Nm_ = 0.0;         ///< against stiction
+  std::array<double, 2> hold_Nm_{};  ///< integrals of the speed error by direction, for friction and load
+  double sticking_Nm_ = 0.0;         ///< additional torque against stiction
   SineSum sines_;
   double shake_rms_Nm_;
-  double shake_squares_ = 0.0;  ///< of the speed around the stroke's
+  double shake_squares_ = 0.0;  ///< sum of squared speed deviations from the stroke's
   long shaken_periods_ = 0;
 };
 

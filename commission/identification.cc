@@ -12,22 +12,22 @@ namespace strainwave {
 
 namespace {
 
-// Below this share of the torque's work there and back, what is left does not say which way friction acts.
+// Least share of the net work in the sum of absolute work. A smaller one does not show the sign of the torque.
 constexpr double kLeastWorkShare = 0.2;
 constexpr double kLeastWay_counts = 20.0;
 constexpr std::size_t kRestSamples = 20;
-// Over a motor turn at steady speed, the speed changes by at most this share of it from one end to the other.
+// Largest relative change of speed from one end to the other of a motor turn that counts as steady.
 constexpr double kSteady = 0.25;
-// What the gear transmits adds up to 10 % of its size to friction (docs/flexible-joint.md), so a swing of this share of it adds 2 %.
+// Largest swing of the torque over friction. The gear adds up to 10 % of its torque to friction (docs/flexible-joint.md), here 2 %.
 constexpr double kEvenTorque = 0.2;
-// Speeds there and back that count as the same.
+// Largest relative difference of speeds there and back that count as the same.
 constexpr double kSameSpeed = 0.1;
-// The fastest turn of a motor: 6000 RPM at a period of a millisecond.
+// Samples of the fastest motor turn: 6000 RPM at a period of 1 ms.
 constexpr std::size_t kLeastTurnSamples = 10;
-// Of friction, what its place on the way and the torque's ripple leave: commission_study.
+// Least half width as a share of friction, for its variation with position and the torque's ripple (commission_study).
 constexpr double kFrictionShare = 0.015;
 
-/// Mean and 1.96 standard deviations of it, with `least` at least.
+/// The mean, and as half width 1.96 of its standard deviations, but at least `least`.
 IntervalEstimate mean_of(const std::vector<double>& values, double least) {
   const auto n = static_cast<double>(values.size());
   double mean = 0.0;
@@ -38,17 +38,17 @@ IntervalEstimate mean_of(const std::vector<double>& values, double least) {
   return {mean, std::max(least, 1.96 * deviation)};
 }
 
-/// One motor turn one way.
+/// One motor turn in one direction.
 struct Turn {
-  long number = 0;  ///< of the motor, from position 0
+  long number = 0;  ///< of the motor turn, from position 0
   double direction = 1.0;
   double speed_rad_s = 0.0;
-  double torque_Nm = 0.0;  ///< mean, without what changed the speed
+  double torque_Nm = 0.0;  ///< mean, without the accelerating torque
   double swing_Nm = 0.0;   ///< of the torque around its mean, root mean square
   double temperature_C = 0.0;
 };
 
-/// Samples first..end-1, which are a turn; nothing where its speed is not steady.
+/// The turn of samples first..end-1; nothing if its speed is not steady.
 std::optional<Turn> steady_turn(const JointTrace& trace, const FrictionSearch& search, std::size_t first,
                                 std::size_t end) {
   const auto n = static_cast<double>(end - first);
@@ -79,7 +79,7 @@ std::vector<Turn> steady_turns(const JointTrace& trace, const FrictionSearch& se
     const auto number_at = [&](std::size_t k) {
       return static_cast<long>(std::floor(trace.samples[k].motor_position_rad / turn_rad));
     };
-    std::optional<std::size_t> first;  // of a turn that began in this span
+    std::optional<std::size_t> first;  // first sample of a turn that began in this span
     for (std::size_t k = span.first + 1; k < span.first + span.count; ++k) {
       if (number_at(k) == number_at(k - 1)) continue;
       std::optional<Turn> turn = first ? steady_turn(trace, search, *first, k) : std::nullopt;
@@ -101,7 +101,7 @@ struct FrictionSample {
   double friction_Nm = 0.0;
 };
 
-/// Nothing where they are not one turn there and back, at one speed, under an even torque.
+/// Nothing unless they are the same turn there and back, at one speed, under an even torque.
 std::optional<FrictionSample> friction_of(const Turn& there, const Turn& back) {
   const bool one_turn = there.direction > 0.0 && back.direction < 0.0 && there.number == back.number;
   const bool one_speed = std::abs(there.speed_rad_s - back.speed_rad_s) <= kSameSpeed * there.speed_rad_s;
@@ -186,7 +186,7 @@ std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const Fricti
     point.torque_Nm = mean_of(torques, 0.0);
     point.torque_Nm.half_width_95 =
         std::max(point.torque_Nm.half_width_95, kFrictionShare * point.torque_Nm.value);
-    if (torques.size() > 1) points.push_back(point);  // one alone has no spread to be judged by
+    if (torques.size() > 1) points.push_back(point);  // a single one has no spread
   }
   return points;
 }

@@ -29,7 +29,7 @@ std::string text_of(const Lines& lines) {
   return text;
 }
 
-/// The name in a line [name] or [[name]]; empty: it is none.
+/// The name in a line [name] or [[name]]; empty for another line.
 std::string_view table_of(std::string_view line) {
   line = trimmed(line);
   const std::string_view open = line.starts_with("[[") ? "[[" : "[";
@@ -38,7 +38,7 @@ std::string_view table_of(std::string_view line) {
   return trimmed(line.substr(open.size(), end - open.size()));
 }
 
-/// "key = value  # comment"; key empty: it is none.
+/// A line "key = value  # comment"; the key is empty for another line.
 struct KeyLine {
   std::string_view key;
   std::string_view value;
@@ -72,13 +72,13 @@ std::vector<Block> blocks_of(const Lines& lines) {
       blocks.push_back({table, i, lines.size()});
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (i + 1 < blocks.size()) blocks[i].end = blocks[i + 1].begin;
-    // What stands before the next table belongs to that one.
+    // Blank lines and comments before the next table belong to that one.
     while (blocks[i].end > blocks[i].begin + 1 && is_blank(lines[blocks[i].end - 1])) --blocks[i].end;
   }
   return blocks;
 }
 
-/// The tables of `joint`, its own first; empty: there is no such joint.
+/// The tables of `joint`, [[joint]] first; empty if there is no such joint.
 std::vector<Block> blocks_of_joint(const Lines& lines, const std::string& joint) {
   const std::vector<Block> all = blocks_of(lines);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -102,7 +102,7 @@ std::string value_text(const JointSetting& setting) {
   return "\"" + std::get<std::string>(setting.value) + "\"";
 }
 
-/// "control.gravity_Nm" in its table and key.
+/// Table and key of a setting such as "control.gravity_Nm".
 struct Place {
   std::string table;
   std::string key;
@@ -131,7 +131,7 @@ void set(Lines& lines, const std::vector<Block>& blocks, const JointSetting& set
   lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(block->end), line);
 }
 
-/// Throws InputError where the text, as TOML, does not say what the setting says.
+/// Reads the text as TOML and throws InputError if it does not contain the setting.
 void verify(const std::string& text, const std::string& joint, const JointSetting& setting,
             const std::string& source) {
   constexpr Range kAny{-1e300, 1e300};
@@ -155,7 +155,7 @@ void verify(const std::string& text, const std::string& joint, const JointSettin
   throw failed;
 }
 
-/// The path in a value of `key`, as far as one is there.
+/// The path in a value of `key`; empty if there is none.
 std::string_view path_in(std::string_view key, std::string_view value) {
   if (!value.starts_with('"') || !value.ends_with('"') || value.size() < 3) return {};
   value = value.substr(1, value.size() - 2);
@@ -172,7 +172,7 @@ std::string with_settings(const std::string& text, const std::string& joint,
                           const std::vector<JointSetting>& settings, const std::string& source) {
   Lines lines = lines_of(text);
   for (const JointSetting& setting : settings) {
-    // Of copies: a line that is inserted moves those behind it.
+    // Blocks refer to a copy of the lines, because an insertion moves the later ones.
     const Lines before = lines;
     const std::vector<Block> blocks = blocks_of_joint(before, joint);
     if (blocks.empty())

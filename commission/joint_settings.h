@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets keys of one joint in the text of a configuration, line by line: all other lines stay as they are, comments too. Not real-time.
+// Sets keys of one joint in the text of a configuration, line by line. All other lines stay unchanged, comments included. Not real-time.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ struct JointSetting {
   std::variant<double, std::string> value;
 };
 
-/// The same text in which each setting is a line of `joint`: its value in place of the old one, which becomes the line's comment, or a new line
-/// at the end of its table. Throws InputError that names `source` and the setting where the file writes the joint's tables in another form than
-/// [[joint]] and [joint.NAME], or has no such joint.
+/// The text with each setting as a line of `joint`. A new value replaces the old one, which becomes the line's comment, or is a new line at
+/// the end of its table. Throws InputError that names `source` and the setting if there is no such joint, or if its tables are not
+/// written as [[joint]] and [joint.NAME].
 std::string with_settings(const std::string& text, const std::string& joint,
                           const std::vector<JointSetting>& settings, const std::string& source);
 
-/// The same text for another folder: every relative path of a configuration's keys begins with `prefix`, which ends in '/'.
+/// The text for another folder: puts `prefix`, which ends in '/', before every relative path in a configuration's keys.
 std::string with_moved_paths(const std::string& text, const std::string& prefix);
 
 }  // namespace strainwave

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a joint did, period by period: what an identification is made from. Joint side, SI. Plain data; not real-time safe, since it grows.
+// Trace of a joint's motion, period by period: the input of an identification. Joint side, SI. Plain data; it grows, so not real-time safe.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace strainwave {
 
-/// One period: what was read at its start, and the torque ordered then, which acts from then on after the drive's delay.
+/// One period: the reading at its start, and the torque ordered then, which acts after the drive's delay.
 struct JointSample {
-  double motor_position_rad = 0.0;                                      ///< accumulated, at the joint's scale
+  double motor_position_rad = 0.0;  ///< over all turns, referred to the joint
   double link_position_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no encoder on the link
   double torque_ordered_Nm = 0.0;
-  /// In the period before, as the drive measures it; NaN: it does not.
+  /// Torque in the period before, as the drive measures it; NaN: it does not.
   double torque_applied_Nm = std::numeric_limits<double>::quiet_NaN();
   double temperature_C = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fit_motion() of identification.h: where it starts, what is known before, and what the fitted parameters say.
+// fit_motion() of identification.h: its starting points, its prior, and the estimates from the fitted parameters.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -13,26 +13,26 @@ namespace strainwave {
 
 namespace {
 
-// Samples of a stretch. Short ones find the start: over 60 ms a wrong resonance is not yet out of phase.
+// Samples of a stretch. Short stretches find the start, because a wrong resonance is not yet out of phase after 60 samples.
 constexpr std::size_t kLongWindow = 400;
 constexpr std::size_t kShortWindow = 60;
 constexpr std::size_t kLeastWindow = 120;
 constexpr int kShortIterations = 12;
 constexpr int kLongIterations = 60;
 constexpr std::size_t kSearchWindows = 24;
-// Long stretches leave about what short ones leave, and a wrong resonance, out of phase, many times that.
+// Largest ratio of the residuals of long and short stretches. A wrong resonance gets out of phase and leaves many times more.
 constexpr double kExplained = 3.0;
 constexpr std::size_t kTries = 3;
-// By this, errors that all strokes have in common make intervals longer than the spread of the strokes says: commission_study 40 161,
-// which finds eight of ten links within their intervals at 1.3, and nine of ten so.
+// Factor on the intervals for errors that all strokes have in common, which their spread does not show. In commission_study 40 161, nine
+// of ten links are within their intervals with this factor, and eight of ten with 1.3.
 constexpr double kCommonErrors = 1.8;
-// Half an interval, of the number: what is found less exactly is not found. Inertias and spring are meant to 5 %, the resonance to 2 %;
-// damping has a third in a table (docs/commissioning.md).
+// Largest half interval of a number that counts as found, as a share of it: 5 % for inertias and spring, 2 % for resonances. For damping
+// it is half; a table is certified for a third (docs/commissioning.md).
 constexpr double kKnownShare = 0.05;
 constexpr double kKnownFrequencyShare = 0.02;
 constexpr double kDampingShare = 0.5;
-// Within the lost motion the spring is twice as stiff, so a wrong one makes a wrong spring. Half an interval is 27 % where both are wrong
-// (commission_study 1 157) and at most 2 % of the joints 153 to 156, 158, 159 and 161.
+// Within the lost motion the spring is twice as stiff, so a wrong lost motion gives a wrong stiffness. The half interval is 27 % where
+// both are wrong (commission_study 1 157), and at most 2 % for the joints 153 to 156, 158, 159 and 161.
 constexpr double kLostMotionShare = 0.2;
 
 std::vector<MotionWindow> cut(const JointTrace& trace, const ToldJoint& told, std::size_t length) {
@@ -70,21 +70,21 @@ MotionPrior prior_of(const ToldJoint& told) {
   set(kViscous, 0.0, 100.0 * told.motor_inertia_kgm2);
   set(kLogLostMotion, 0.0, 0.5);
   set(kShare, 0.05, 0.03);  // 5 to 10 %: docs/flexible-joint.md
-  // A weight that hangs from the link: of any size against the spring's first corner.
+  // Weak prior for the weight of the link: twice the torque at the spring's second corner.
   set(kGravitySin, 0.0, 2.0 * told.spring.torque_2_Nm);
   set(kGravityCos, 0.0, 2.0 * told.spring.torque_2_Nm);
   for (const MotionParameter error : {kError1Sin, kError1Cos, kError2Sin, kError2Cos}) set(error, 0.0, 3e-4);
   return prior;
 }
 
-/// Where a fit may start.
+/// A starting point of a fit.
 struct Start {
   double cost = 0.0;
-  double residual_rad = 0.0;  ///< of short stretches
+  double residual_rad = 0.0;  ///< over short stretches
   MotionVector parameters;
 };
 
-/// Best first: what explains short stretches, which a wrong resonance does not put out of phase.
+/// Starting points, best first, from short stretches, which a wrong resonance does not put out of phase.
 std::vector<Start> starts(const MotionModel& model, const MotionPrior& prior) {
   std::vector<MotionWindow> all = cut(model.trace(), model.told(), kShortWindow);
   std::vector<MotionWindow> few;
@@ -101,14 +101,14 @@ std::vector<Start> starts(const MotionModel& model, const MotionPrior& prior) {
       if (std::isfinite(fit.cost())) found.push_back({fit.cost(), fit.residual_rad(), fit.parameters()});
     }
   std::sort(found.begin(), found.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
-  // Short stretches do not part these from a stretch's own friction, which is at first guessed as all of the torque.
+  // Short stretches cannot separate these parameters from a stretch's own friction, whose first guess is the whole torque.
   for (Start& start : found)
     for (const MotionParameter slow : {kViscous, kGravitySin, kGravityCos})
       start.parameters[slow] = prior.mean[slow];
   return found;
 }
 
-/// From that start whose fit explains long stretches best; nothing where none explains them about as well as short ones.
+/// The fit from the best starting point for long stretches; nothing if none explains them about as well as short ones.
 std::optional<WindowFit> fit_windows(const MotionModel& model, const std::vector<MotionWindow>& windows) {
   const MotionPrior prior = prior_of(model.told());
   const std::vector<Start> all = starts(model, prior);
@@ -127,7 +127,7 @@ double student_975(double degrees) {
   return 1.96 + 2.372 / degrees + 2.82 / (degrees * degrees);
 }
 
-/// Of a function of the parameters: its value, and half its 95 % interval by its gradient.
+/// Value of a function of the parameters, with half its 95 % interval from its gradient.
 template <typename Function>
 IntervalEstimate estimate_of(const MotionVector& p, const WindowFit::Covariance& covariance,
                              double deviations, Function function) {
@@ -143,7 +143,7 @@ IntervalEstimate estimate_of(const MotionVector& p, const WindowFit::Covariance&
   return {function(p), deviations * std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
 }
 
-/// Nothing where half the interval is more than `share` of the number.
+/// Nothing if half the interval is more than `share` of the number.
 std::optional<IntervalEstimate> if_known(const IntervalEstimate& estimate, double share) {
   return estimate.half_width_95 < share * std::abs(estimate.value) ? std::optional(estimate) : std::nullopt;
 }
@@ -172,7 +172,7 @@ std::optional<MotionEstimates> fit_motion(const JointTrace& trace, const ToldJoi
   found.delay_s = of([](const MotionVector& v) { return v[kDelay] + std::exp(v[kLogLag]); });
   found.motor_inertia_kgm2 = if_known(exp_of(kLogMotorInertia, 1.0), kKnownShare);
   found.link_inertia_kgm2 = if_known(exp_of(kLogLinkInertia, 1.0), kKnownShare);
-  // A link that does not show is taken for the motor's.
+  // If the link does not show, the fit may attribute its inertia to the motor.
   if (!found.link_inertia_kgm2) found.motor_inertia_kgm2.reset();
   if (if_known(exp_of(kLogLostMotion, 1.0), kLostMotionShare))
     found.stiffness_1_Nm_rad = if_known(exp_of(kLogStiffness, K1), kKnownShare);
@@ -185,7 +185,7 @@ std::optional<MotionEstimates> fit_motion(const JointTrace& trace, const ToldJoi
   const auto antiresonance = [K1](const MotionVector& v) {
     return std::sqrt(K1 * std::exp(v[kLogStiffness] - v[kLogLinkInertia])) / (2.0 * std::numbers::pi);
   };
-  // They are made of these three.
+  // The resonances follow from these three numbers.
   if (found.motor_inertia_kgm2 && found.link_inertia_kgm2 && found.stiffness_1_Nm_rad) {
     found.resonance_Hz = if_known(of(resonance), kKnownFrequencyShare);
     found.antiresonance_Hz = if_known(of(antiresonance), kKnownFrequencyShare);

@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-// Over the way that the speed limit allows in the periods that may be missing.
+// A jump is implausible above this multiple of the distance that the speed limit allows in kMissingPeriods.
 constexpr double kJump = 2.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a commissioned joint may do. It judges every reading; the excitation brakes and stops where it finds something. Joint side, SI.
+// Limits of a joint during commissioning. The guard checks every reading; the excitation brakes and stops on its findings. Joint side, SI.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace strainwave {
 
-/// All finite; min < max, the others > 0.
+/// All finite, except the temperature; min < max, the others > 0.
 struct ExcitationLimits {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
@@ -29,7 +29,7 @@ class MeanSpeed {
 
  private:
   double period_s_;
-  std::vector<double> positions_rad_;  ///< a ring
+  std::vector<double> positions_rad_;  ///< ring buffer
   std::size_t count_ = 0;
 };
 
@@ -37,15 +37,15 @@ class MotionGuard {
  public:
   MotionGuard(const ExcitationLimits& limits, double period_s) : limits_(limits), period_s_(period_s) {}
 
-  /// What is wrong in this period, where, and what is allowed; nothing while all is well. `enabled` is whether torque is ordered.
+  /// Returns the problem of this period, its position and what is allowed; nothing while all is well. `enabled`: torque is ordered.
   std::optional<std::string> judge(const ActuatorReading& reading, double speed_rad_s, bool enabled);
 
-  /// Of the last reading: its position cannot be believed, so nothing may be braked by it.
+  /// True if the last reading's position is not plausible. The joint must then not be braked by feedback.
   bool blind() const { return blind_; }
 
   const ExcitationLimits& limits() const { return limits_; }
 
-  /// A drive that has not become ready after so many periods, or has sent no position for so many, is not waited for any longer.
+  /// Longest wait for a drive that is not ready after its enable, and for a missing position.
   static constexpr int kEnablePeriods = 5000;
   static constexpr int kMissingPeriods = 4;
 

@@ -8,9 +8,9 @@ namespace strainwave {
 
 namespace {
 
-// Of one Runge-Kutta step: at 120 Hz its phase is then right to 0.1 %.
+// Longest Runge-Kutta step. The phase at 120 Hz is then right to 0.1 %.
 constexpr double kLongestStep_s = 0.5e-3;
-// Times the step, the fastest swing: well inside what the method keeps stable (2.8).
+// Largest product of a swing's angular frequency and the step, well below the method's stability limit (2.8).
 constexpr double kFastest = 1.5;
 
 struct State {
@@ -22,7 +22,7 @@ State moved(const State& a, double h, const State& by) {
           a.link_rad_s + h * by.link_rad_s, a.lost_rad + h * by.lost_rad};
 }
 
-/// What acts from outside at an instant.
+/// External inputs at one instant.
 struct Input {
   double torque_Nm;
   double error_rad;  ///< e
@@ -35,13 +35,13 @@ Input between(const Input& a, const Input& b, double share) {
           a.gravity_Nm + share * (b.gravity_Nm - a.gravity_Nm)};
 }
 
-/// The parameters as the equations take them.
+/// The parameters in the form in which the equations use them.
 struct Equations {
   double motor_kgm2, link_kgm2, damping_Nms_rad, friction_Nm, viscous_Nms_rad, share, direction;
   double half_lost_rad;
   TorsionSpring spring;
 
-  /// Within its bounds, which a fast swing leaves in a step: that would grow beyond all bounds.
+  /// Clamped to its bounds: a fast swing can leave them in a step, and would then diverge.
   double lost_rad(const State& x) const { return std::clamp(x.lost_rad, -half_lost_rad, half_lost_rad); }
   double transmitted_Nm(const State& x, const Input& in) const {
     const double bent_rad = x.motor_rad + in.error_rad - x.link_rad;
@@ -83,12 +83,12 @@ Equations equations_of(const MotionVector& p, const MotionWindow& window, const 
            factor * told.spring.stiffness_3_Nm_rad}};
 }
 
-/// A part of a period under one order.
+/// A part of a period with one ordered torque.
 struct Part {
   double begin, end;  ///< shares of the period
   int steps;
-  double decay;   ///< of the current loop over half a step
-  int order_ago;  ///< periods
+  double decay;   ///< of the current loop's error over half a step
+  int order_ago;  ///< age of the order in periods
 };
 
 std::array<Part, 2> parts_of(double delay_periods, double lag_s, double period_s) {

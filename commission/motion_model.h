@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint as motor and link on a spring, while the motor slides one way: what an identification fits. It is not the simulated joint:
-// friction is constant and viscous, events do not exist. Joint side, SI. Not real-time.
+// The model that an identification fits: motor and link on a spring, while the motor slides one way. It is simpler than the simulated
+// joint: its friction does not stick. Joint side, SI. Not real-time.
 //
-//   Jm wm' = i - s (c + b s wm + r |ts|) - (1 + e') ts    s: direction of the motion, i: torque ordered, after delay and lag
+//   Jm wm' = i - s (c + b s wm + r |ts|) - (1 + e') ts    s: direction of the motion, i: torque ordered, after delay and lag of the current loop
 //   Jl wl' = ts - gs sin(thm) - gc cos(thm)
-//   ts     = f spring(x) + f K1 z + D x'                  x = thm + e(N thm) - thl,  f: factor of the told stiffness
+//   ts     = f spring(x) + f K1 z + D x'                  x = thm + e(N thm) - thl,  f: factor of the configured stiffness
 //   z'     = x' - |x'| z / (h / 2)
 //   e(a)   = e1 sin a + e2 cos a + e3 sin 2a + e4 cos 2a
 //
-// Position in gravity and e is the measured one, which is within a wind-up of the model's.
+// Gravity and e use the measured position, which differs from the model's by less than a wind-up.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@
 
 namespace strainwave {
 
-/// The parameters in the order of the vector. Logarithms where they are positive.
+/// The parameters in the order of the vector. Positive ones are logarithms.
 enum MotionParameter : Eigen::Index {
   kLogMotorInertia,
   kLogLinkInertia,
@@ -30,7 +30,7 @@ enum MotionParameter : Eigen::Index {
   kDelay,          ///< s
   kLogLag,         ///< of the current loop, s
   kViscous,        ///< b
-  kLogLostMotion,  ///< h over the told one
+  kLogLostMotion,  ///< h over the configured one
   kShare,          ///< r
   kGravitySin,
   kGravityCos,
@@ -42,18 +42,18 @@ enum MotionParameter : Eigen::Index {
 };
 using MotionVector = Eigen::Matrix<double, kMotionParameters, 1>;
 
-/// What each stretch has of its own, as far as it is off the first guess: position, speed, wind-up, its speed, and friction c.
+/// Parameters of one stretch, as deviations from the first guess: position, speed, wind-up, speed of wind-up, and friction c.
 inline constexpr Eigen::Index kWindowParameters = 5;
 using WindowVector = Eigen::Matrix<double, kWindowParameters, 1>;
 
 /// A stretch of one-way motion.
 struct MotionWindow {
-  std::size_t first = 0;  ///< sample
+  std::size_t first = 0;  ///< first sample
   std::size_t count = 0;
   double direction = 1.0;    ///< +1 or -1
   double speed_rad_s = 0.0;  ///< at its start, first guess, signed
   double friction_Nm = 0.0;  ///< c, first guess
-  std::size_t stroke = 0;    ///< number of the motion, from one reversal to the next, that it is part of
+  std::size_t stroke = 0;    ///< number of the motion between two reversals to which it belongs
 };
 
 class MotionModel {
@@ -61,20 +61,20 @@ class MotionModel {
   /// Keeps a reference to `trace`.
   MotionModel(const JointTrace& trace, const ToldJoint& told);
 
-  /// Motor positions over `window`, one for each of its samples, into `positions_rad`.
+  /// Writes the motor position at each sample of `window` to `positions_rad`.
   void simulate(const MotionVector& parameters, const MotionWindow& window, const WindowVector& own,
                 Eigen::Ref<Eigen::VectorXd> positions_rad) const;
 
   const JointTrace& trace() const noexcept { return trace_; }
   const ToldJoint& told() const noexcept { return told_; }
-  /// `parameters` as near as can be where the model may be stepped: the link's swing on the spring not faster than its steps.
+  /// Clamps `parameters` to plausible bounds, and to those in which the model's steps resolve the link's swing on the spring.
   void keep_in_bounds(MotionVector& parameters) const;
 
-  /// Most that a delay may be.
+  /// Largest delay.
   static constexpr double kMaxDelayPeriods = 8.0;
 
  private:
-  /// sin and cos of the motor's turn, of twice that, and of the position.
+  /// sin and cos of the motor's angle, of twice that, and of the joint's position.
   using Angles = std::array<double, 6>;
 
   const JointTrace& trace_;

@@ -19,7 +19,7 @@ double speed_within(const JointTrace& trace, std::size_t sample, std::size_t hal
          (trace.period_s * static_cast<double>(to - from));
 }
 
-// As short as the counts allow: a joint that swings may stick for two periods. A count is then at most a quarter of `slowest_rad_s`.
+// As short as the encoder allows, since a joint that swings may stick for two periods. One count is at most a quarter of `slowest_rad_s`.
 std::size_t shortest_half_span(const JointTrace& trace, double slowest_rad_s) {
   const double periods = 2.0 * trace.encoder_resolution_rad / (trace.period_s * slowest_rad_s);
   return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(periods)), 1, kHalfSpan);
@@ -41,7 +41,7 @@ std::vector<MotionSpan> sliding_spans(const JointTrace& trace, double gear_ratio
   std::vector<MotionSpan> spans;
   MotionSpan open{0, 0, 0.0};
   const auto close = [&](std::size_t end) {
-    // The speed is a mean: the ends of a stretch may still be sticking.
+    // The speed is a mean, so the joint may still stick at the ends of a span.
     if (open.direction != 0.0 && end > open.first + least + 2 * half_span)
       spans.push_back({open.first + half_span, end - open.first - 2 * half_span, open.direction});
     open.direction = 0.0;

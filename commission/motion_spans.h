@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in a trace the motor slides one way. Not real-time.
+// Finds the spans of a trace in which the motor slides in one direction. Not real-time.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct MotionSpan {
   double direction = 1.0;  ///< +1 or -1
 };
 
-/// Speed of the motor in rad/s around `sample`, over 8 periods; the encoder's counts add up to a quarter of a count a period.
+/// Speed of the motor in rad/s around `sample`, over 8 periods; the encoder's resolution adds up to a quarter of a count per period.
 double speed_around(const JointTrace& trace, std::size_t sample);
 
 /// Speed above which a motor with a gear of ratio N is beyond the Stribeck curve: twice its 20 RPM at the motor (data/README.md).

@@ -38,7 +38,7 @@ std::string number_cell(const std::string& text) {
   return "<td class=\"number\">" + html_text(text) + "</td>";
 }
 
-/// In so many digits, without an exponent where it can be.
+/// `value` with `count` significant digits, with an exponent only if that is shorter.
 std::string digits(double value, int count) {
   return number_text(rounded(value, count));
 }
@@ -108,7 +108,7 @@ std::string values_table(const CommissionRecord& record) {
   return html + "</table>\n";
 }
 
-/// The same angle within half a turn of `near`.
+/// The angle, shifted by whole turns to within half a turn of `near_rad`.
 double nearest_turn_rad(double angle_rad, double near_rad) {
   return angle_rad - kTurn_rad * std::round((angle_rad - near_rad) / kTurn_rad);
 }

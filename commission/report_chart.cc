@@ -13,19 +13,19 @@ namespace strainwave {
 
 namespace {
 
-// Of the picture, in its own units.
+// Dimensions of the picture in its own units.
 constexpr double kWidth = 640.0;
 constexpr double kHeight = 300.0;
 constexpr double kLeft = 70.0;
 constexpr double kRight = 20.0;
 constexpr double kTop = 26.0;
 constexpr double kBottom = 46.0;
-constexpr double kTicks = 5.0;    // about so many on an axis
-constexpr double kRoom = 0.05;    // of the range, above and below what is drawn
-constexpr double kBarHalf = 3.0;  // of an interval's end
+constexpr double kTicks = 5.0;    // about this number on an axis
+constexpr double kRoom = 0.05;    // margin above and below the curves, share of the range
+constexpr double kBarHalf = 3.0;  // half length of an interval's end
 constexpr double kLegendStep = 130.0;
 
-/// One axis: values to places.
+/// Maps the values of one axis to places in the picture.
 struct Axis {
   bool logarithmic = false;
   double low = std::numeric_limits<double>::infinity();  ///< of the values, or of their decimal logarithms
@@ -48,7 +48,7 @@ struct Axis {
   double place(double value) const { return begin + (scaled(value) - low) / (high - low) * (end - begin); }
 };
 
-/// 1, 2 or 5 times a power of ten, or those within the range of a logarithmic axis.
+/// Multiples of one step, which is 1, 2 or 5 times a power of ten. On a logarithmic axis, all such numbers within the range.
 std::vector<double> ticks(const Axis& axis) {
   std::vector<double> values;
   if (axis.logarithmic) {
@@ -61,7 +61,7 @@ std::vector<double> ticks(const Axis& axis) {
   }
   const double wanted = (axis.high - axis.low) / kTicks;
   const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
-  // The nearest of them by ratio.
+  // The nearest such step by ratio.
   const double digit = wanted / decade;
   const double step = decade * (digit > 7.1 ? 10.0 : digit > 3.2 ? 5.0 : digit > 1.4 ? 2.0 : 1.0);
   for (double at = std::ceil(axis.low / step); at * step <= axis.high; ++at) values.push_back(at * step);
@@ -108,7 +108,7 @@ std::string curve_svg(const ChartCurve& curve, std::size_t number, const Axis& x
   return svg + marks + "</g>\n";
 }
 
-/// Above the frame.
+/// Labels of the curves, above the frame.
 std::string legend(const Chart& chart) {
   std::string svg;
   double at = kLeft;

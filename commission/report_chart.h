@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A diagram as SVG for a page of HTML: axes, curves and points with their intervals. Colours are the page's, by CSS classes. Pure; not
+// A chart as SVG for a page of HTML: axes, curves and points with their intervals. The page sets the colours by CSS classes. Pure; not
 // real-time.
 #pragma once
 
@@ -17,8 +17,8 @@ struct ChartPoint {
 struct ChartCurve {
   std::string label;
   std::vector<ChartPoint>
-      points;  ///< by rising x; those that are not finite, or not above 0 on a logarithmic axis, are left out
-  bool line = true;  ///< false: points by themselves
+      points;  ///< by rising x; points that are not finite, or not above 0 on a logarithmic axis, are left out
+  bool line = true;  ///< false: points only
 };
 
 struct Chart {
@@ -30,10 +30,10 @@ struct Chart {
   std::vector<ChartCurve> curves;  ///< curve i has the class "curve i"
 };
 
-/// `text` as HTML shows it, not as it reads it.
+/// `text` escaped, so that HTML shows it literally.
 std::string html_text(const std::string& text);
 
-/// The element <svg>, labels escaped. Empty where no curve has a point.
+/// The element <svg>, labels escaped. Empty if no curve has a point.
 std::string to_svg(const Chart& chart);
 
 }  // namespace strainwave

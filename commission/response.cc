@@ -16,13 +16,13 @@ using Complex = std::complex<double>;
 
 constexpr double kStretch_s = 0.8;
 
-/// Of one frequency over all stretches.
+/// Sums at one frequency over all stretches.
 struct Spectrum {
   Complex cross;
   double power = 0.0;
 };
 
-/// By central differences, in rad/s; they have sin(wT) / (wT) of the velocity.
+/// Speed in rad/s by central differences, which are sin(wT) / (wT) of the velocity.
 double speed_at(const JointTrace& trace, std::size_t k) {
   return (trace.samples[k + 1].motor_position_rad - trace.samples[k - 1].motor_position_rad) /
          (2.0 * trace.period_s);

@@ -14,7 +14,7 @@ constexpr double kBase_Hz = 1.5;
 constexpr double kLowest_Hz = 3.0;
 constexpr double kHighest_Hz = 180.0;
 
-/// sqrt(f_i), and their root mean square together.
+/// The amplitudes sqrt(f_i), and the root mean square of the sum of sines.
 struct Amplitudes {
   std::array<double, SineSum::kSines> of = SineSum::frequencies_Hz();
   double root_mean_square = 0.0;

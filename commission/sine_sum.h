@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sum of sines, periodic, and the inertia that the response to its lowest one shows. Not real-time.
+// A periodic sum of sines, and the inertia from the response to its lowest one. Not real-time.
 //
 //   s(t) = c sum over i of sqrt(f_i) sin(2 pi f_i t + phi_i),   c: root mean square 1
 //
-// A torque moves a mass by 1 / f: equal ones would spend the speed that may swing on the lowest, and show nothing of a light link.
-// The frequencies are multiples of 1.5 Hz, in equal ratios as near as these come, from well below to beyond the resonance of any gear of
-// the catalogue with up to three times its inertia. Phases after Schroeder (IEEE Trans. Inf. Theory 16, 1970) keep the peak low.
+// The speed of a mass swings in proportion to 1 / f. With equal amplitudes the lowest sine would take the allowed swing, and a light link
+// would not show. The frequencies are multiples of 1.5 Hz in nearly equal ratios, from well below to above the resonance of any catalogue
+// gear with up to three times its inertia. Phases after Schroeder (IEEE Trans. Inf. Theory 16, 1970) keep the peak low.
 #pragma once
 
 #include <array>
@@ -21,25 +21,25 @@ class SineSum {
 
   explicit SineSum(double period_s) : period_s_(period_s) {}
 
-  /// Of the next period.
+  /// Value of the sum in the next period.
   double step();
-  /// In the same period: what was ordered and what the joint did.
+  /// Adds the ordered torque and the measured speed of the same period.
   void respond(double torque_Nm, double speed_rad_s);
-  /// What responded in this repetition does not count: the joint stuck.
+  /// Discards the response in this repetition, because the joint stuck.
   void forget_repetition() { good_ = false; }
-  /// Begins again; what responded in a repetition that is not whole is forgotten.
+  /// Begins again and discards the response in an incomplete repetition.
   void restart();
 
-  /// Total inertia, by torque and speed at 3 Hz over whole repetitions: below the link's antiresonance the joint is one mass. To about a
-  /// fifth, since friction and delay are left out. Nothing before a repetition is whole.
+  /// Total inertia from torque and speed at 3 Hz over complete repetitions. Below the link's antiresonance the joint moves as one mass. The
+  /// error is about a fifth, since friction and delay are neglected. Nothing before the first complete repetition.
   std::optional<double> inertia_kgm2() const;
 
  private:
   double period_s_;
   long periods_ = 0;
-  bool good_ = true;                                 ///< this repetition
-  std::complex<double> torque_, speed_;              ///< of this repetition
-  std::complex<double> whole_torque_, whole_speed_;  ///< of those before
+  bool good_ = true;                                 ///< this repetition counts
+  std::complex<double> torque_, speed_;              ///< sums of this repetition
+  std::complex<double> whole_torque_, whole_speed_;  ///< sums of complete ones
 };
 
 }  // namespace strainwave

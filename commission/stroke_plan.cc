@@ -11,23 +11,23 @@ namespace strainwave {
 
 namespace {
 
-// Of the way between the limits, at either end: what braking and the guard need.
+// Share of the position range that each end keeps free for braking and the guard.
 constexpr double kMargin = 0.1;
 constexpr int kSpeeds = 4;
 constexpr int kShakenStrokes = 20;
-// Strokes last at most so long, and at least these motor turns.
+// A stroke lasts at most this time at its speed, unless this number of motor turns takes longer.
 constexpr double kLongestStroke_s = 4.0;
 constexpr double kLeastTurns = 2.3;
 constexpr double kTopSpeedShare = 0.6;  // of the speed limit
-// Sliding speeds. The first strokes are at three of them, and five standard deviations of their swing take as much again.
+// Least speed limit, in sliding speeds. The first strokes run at three, and five standard deviations of their swing need up to three more.
 constexpr double kLeastSpeed = 6.0;
 
-/// Planned positions have this from the limits.
+/// Distance of planned positions from the limits.
 double margin_rad(const ExcitationLimits& limits) {
   return kMargin * (limits.position_max_rad - limits.position_min_rad);
 }
 
-/// The swing on top takes up to 0.8 of it in three standard deviations (excitation.cc): five of them stay below the speed limit.
+/// Three standard deviations of the swing take up to 0.8 of this speed (excitation.cc). Five of them then stay below the speed limit.
 double shaken_speed_rad_s(const ExcitationConfig& config, double way_rad) {
   const double sliding = sliding_speed_rad_s(config.gear_ratio);
   return std::clamp(way_rad / 1.5, std::min(3.0 * sliding, kTopSpeedShare * config.limits.speed_rad_s),
@@ -70,7 +70,7 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
     return std::min(high - low, std::max(kLeastTurns * turn_rad, speed_rad_s * kLongestStroke_s) +
                                     speed_rad_s * speed_rad_s / limits.acceleration_rad_s2);
   };
-  // Slowly and gently first: the inertia that this shows is needed to turn round in time.
+  // The first strokes are slow and gentle. They show the inertia, without which later strokes cannot reverse in time.
   for (const double side : {0.5, -0.5})
     strokes.push_back({middle + side * way_at(2.0 * slowest), 2.0 * slowest, true});
   const int speeds = config.part == ExcitationPart::kShakenStrokes ? 0 : kSpeeds;

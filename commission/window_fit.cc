@@ -13,12 +13,12 @@ namespace {
 constexpr Eigen::Index kLag = 3;
 // A step of the parameters changes a logarithm by at most this.
 constexpr double kMostChange = 0.7;
-// Of what a stretch has of its own, before the first step of all: a stretch may begin in a swing, far from the first guess.
+// Steps of a stretch's own parameters before the first common step. A stretch may begin in a swing, far from the first guess.
 constexpr int kSettlingSteps = 6;
 // A step that changes the cost by less than this share ends the fit.
 constexpr double kConverged = 1e-5;
 
-/// Steps of the difference quotients of what a stretch has of its own: position, speed, wind-up, its speed, friction.
+/// Steps of the difference quotients for a stretch's own parameters, in the order of WindowVector.
 WindowVector own_steps() {
   return (WindowVector() << 1e-6, 1e-4, 1e-6, 1e-4, 1e-3).finished();
 }
@@ -105,7 +105,7 @@ WindowFit::Covariance WindowFit::covariance() const {
     const MotionVector change = others.ldlt().solve(score);
     spread += change * change.transpose();
   }
-  // What is known before has its own share.
+  // The prior has its own share.
   Covariance before = Covariance::Zero();
   const double variance = noise_variance();
   for (Eigen::Index i = 0; i < kMotionParameters; ++i)
@@ -201,7 +201,7 @@ void WindowFit::linearise(Stretch& s) {
   const OwnSlopes L = own_slopes(s, r);
   s.own_normal = L.transpose() * L;
   s.own_normal.diagonal() *= 1.0 + 1e-9;
-  // Position has no effect on differences, but through gravity: keep it where it is.
+  // The initial position has no effect on differences. This term keeps it unchanged.
   s.own_normal(0, 0) += 1.0;
   s.own_right = L.transpose() * r;
   s.cross = L.transpose() * J;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fits a MotionModel to stretches of one-way motion by Levenberg and Marquardt's method over all of them at once; what each stretch has
-// of its own is eliminated stretch by stretch. Not real-time.
+// Fits a MotionModel to all stretches of one-way motion at once by the Levenberg-Marquardt method. The own parameters of each stretch are
+// eliminated stretch by stretch. Not real-time.
 //
-// Residuals are differences of the position's error over three periods. That weighs slow errors, such as friction that varies along the
-// way, and the encoder's counts about equally.
+// Residuals are differences of the position error over three periods. They weight slow errors, such as friction that varies with the
+// position, and the encoder's counts about equally.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace strainwave {
 
-/// What is known before: a standard deviation of 0 says nothing.
+/// Prior knowledge of the parameters. A standard deviation of 0 means none.
 struct MotionPrior {
   MotionVector mean = MotionVector::Zero();
   MotionVector deviation = MotionVector::Zero();
@@ -26,18 +26,18 @@ class WindowFit {
   WindowFit(const MotionModel& model, const MotionPrior& prior, const std::vector<MotionWindow>& windows,
             const MotionVector& start);
 
-  /// At most so many steps; whether these were enough.
+  /// Runs at most `iterations` steps. Returns whether the fit converged.
   bool run(int iterations);
 
   const MotionVector& parameters() const { return parameters_; }
   double cost() const { return cost_; }
   /// Root mean square of the residuals.
   double residual_rad() const;
-  /// Of the parameters. Errors of the model are common to the stretches of one stroke. Each stroke is left out in turn, and the spread of
-  /// what the others say counts: the jackknife by clusters (MacKinnon, Nielsen and Webb, Journal of Applied Econometrics 38, 2023), to
-  /// first order.
+  /// Covariance of the parameters. The stretches of one stroke share errors of the model. Each stroke is left out in turn, and the spread
+  /// of the results counts. This is the cluster jackknife (MacKinnon, Nielsen and Webb, Journal of Applied Econometrics 38, 2023) to first
+  /// order, plus the share of the prior.
   Covariance covariance() const;
-  /// From one reversal to the next, that the stretches are parts of.
+  /// Number of motions from one reversal to the next to which the stretches belong.
   int strokes() const;
 
  private:
@@ -47,7 +47,7 @@ class WindowFit {
   struct Stretch {
     MotionWindow window;
     WindowVector own = WindowVector::Zero();
-    // Of the last linearisation.
+    // Results of the last linearisation.
     OwnNormal own_normal = OwnNormal::Zero();
     Eigen::Matrix<double, kWindowParameters, kMotionParameters> cross =
         Eigen::Matrix<double, kWindowParameters, kMotionParameters>::Zero();
@@ -60,7 +60,7 @@ class WindowFit {
   Eigen::VectorXd residuals(const Stretch& stretch, const MotionVector& parameters,
                             const WindowVector& own) const;
   OwnSlopes own_slopes(const Stretch& stretch, const Eigen::VectorXd& residuals) const;
-  /// What the stretch has of its own, for the parameters as they are.
+  /// Fits the stretch's own parameters to the present common ones.
   void settle(Stretch& stretch);
   void linearise();
   void linearise(Stretch& stretch);
@@ -75,9 +75,9 @@ class WindowFit {
   Covariance normal_ = Covariance::Zero();
   MotionVector right_ = MotionVector::Zero();
   double squares_ = 0.0;
-  double count_ = 0.0;  ///< residuals
+  double count_ = 0.0;  ///< number of residuals
   double cost_ = 0.0;
-  double prior_variance_ = 0.0;  ///< in units of which the prior counts
+  double prior_variance_ = 0.0;  ///< noise variance that weights the prior
 };
 
 }  // namespace strainwave
