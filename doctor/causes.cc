@@ -3,13 +3,13 @@
 
 namespace strainwave {
 
-// With x the true value over the configured and lambda = ln x, a wrong number changes what is measured from commands and readings:
+// x is the true value over the configured one, and lambda = ln x. A wrong number changes the values measured from commands and readings:
 //
 //   torque constant  torque is x times what is commanded:  J, Fc, Fv, K / x
 //   counts           positions are x times the true ones:  J, Fv, K / x, link's motion / x
 //   ratio            both:                                 J, Fv, K / x^2, Fc / x, link's motion / x
-//   friction         Fc, Fv x
-//   brake            Fc alone, more
+//   friction         Fc, Fv * x
+//   brake            Fc alone increases
 const std::vector<Cause>& causes() {  // NOLINT(readability-function-size): a table
   using enum Feature;
   static const std::vector<Cause> kCauses{
@@ -99,7 +99,7 @@ const std::vector<Cause>& causes() {  // NOLINT(readability-function-size): a ta
        {kReadingsMissed, kBusFault},
        0.0,
        0.5},
-      // By one period, and every one of them: of a bus that is full some come in time.
+      // A late drive delays every position by one period. On a full bus, some positions arrive in time.
       {"late drive",
        "let the drive answer at once, or raise delay_periods",
        {{kDelay, 1.0}, {kPositionsLate, 1.0}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the configuration says of a joint, as far as the doctor compares it with what is measured. Joint side, SI. Not real-time.
+// The configured data of a joint that the doctor compares with the measurement. Joint side, SI. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace strainwave {
 
-/// Of the catalogue's lost motion: with it joints that have 0.5 to 1 of that show their stiffness best (doctor_study 1 50).
+/// Assumed share of the catalogue's lost motion. It gives the best stiffness of joints that have a share of 0.5 to 1 (doctor_study 1 50).
 inline constexpr double kUsualLostMotion = 0.6;
 
 struct ConfiguredLink {
@@ -20,22 +20,22 @@ struct ConfiguredLink {
   double link_inertia_kgm2 = 0.0;   ///< > 0
   TorsionSpring spring;
   double damping_Nms_rad = 0.0;   ///< >= 0
-  bool measured_at_link = false;  ///< the position is the link's
+  bool measured_at_link = false;  ///< the position sensor is on the link
   double lost_motion_rad = 0.0;   ///< of the gear, from side to side; 0: not known
 };
 
-/// What is empty is not known.
+/// Empty values are not known.
 struct ConfiguredJoint {
   std::optional<double> inertia_kgm2;  ///< motor and load together
   std::optional<ConfiguredLink> link;  ///< of a flexible joint
   std::optional<int> delay_periods;
-  std::optional<double> count_rad;  ///< position of one count at the joint
+  std::optional<double> count_rad;  ///< size of one count at the joint
   std::optional<GravityLoad> gravity;
   std::optional<FuzzyFriction> friction;  ///< of its gain table
 };
 
-/// Reads what the configuration file says of `joint`; what its driver alone derives (delay, counts) only where it stands as a number.
-/// The daemon has checked the rest of the file. Throws InputError: unreadable, no such joint, a value out of range.
+/// Reads the configuration of `joint`. Delay and counts, which a driver may derive, are read only if the file has them as numbers. The
+/// daemon has checked the rest of the file. Throws InputError: unreadable, no such joint, a value out of range.
 ConfiguredJoint read_configured_joint(const std::filesystem::path& config, const std::string& joint);
 
 }  // namespace strainwave

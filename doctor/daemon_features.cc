@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of what the daemon itself reports: temperature, faults, readings, timing, clocks.
+// Features from the daemon's own reports: temperature, faults, readings, timing, clocks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void add_temperature(const Evidence& evidence, Features& features) {
     return status != TemperatureStatus::kValid && status != TemperatureStatus::kNeverSeen &&
            status != TemperatureStatus::kTooOld;
   });
-  // Outside the table's range is rare, and no proof.
+  // A temperature outside the table's range is rare, but does not prove a wrong sensor.
   const double clamped = share_of(evidence, with_notice(Notice::kTemperatureClamped));
   double last_C = evidence.mean_temperature_C();
   for (const temperature_v1& temperature : evidence.temperatures) last_C = temperature.temperature_measured_C;
@@ -80,7 +80,7 @@ void add_bus(const Evidence& evidence, Features& features) {
       late, kShareTolerance, fmt::format("in {:.2f} % of the cycles the position was late", 100.0 * late)};
 }
 
-// A few late cycles are no fault: many a PC without real time runs a simulated joint well.
+// A few late cycles are no fault: many PCs without real time run a simulated joint well.
 void add_timing(const Evidence& evidence, Features& features) {
   const bool late =
       std::any_of(evidence.samples.begin(), evidence.samples.end(), [](const DoctorSample& sample) {
@@ -97,7 +97,7 @@ void add_timing(const Evidence& evidence, Features& features) {
   features[Feature::kLoopFault] = Observation{late ? 1.0 : 0.0, 0.1, text};
 }
 
-/// The least lead of the sender's clock over the loop's, of each half second: what is late looks as if it were ahead, a clock that jumps stays there.
+/// Least lead of the sender's clock over the loop's in each block of time. A late message looks like a lead; only a jump of the clock stays.
 std::vector<double> least_leads_s(const Evidence& evidence, double block_s) {
   std::vector<double> least_s;
   double ends_s = 0.0;
@@ -147,7 +147,7 @@ void add_clock(const Evidence& evidence, Features& features) {
 }
 
 void add_supply(const Evidence& evidence, Features& features) {
-  // Torque varies from period to period: where most are left out, none of those that are there is compared with its own command.
+  // Torque varies from period to period. If most samples are missing, an applied torque cannot be compared with its own command.
   if (evidence.stride_periods() > 2) {
     features.not_judged.emplace_back("sagging supply: set daemon.state_rate_Hz to the loop's rate");
     return;

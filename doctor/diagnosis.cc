@@ -11,10 +11,10 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kPriceOfExplaining = 2.0;  // and of a lambda
-constexpr double kWorthNaming = 3.5;        // with it about 3.5 deviations of a single feature
-constexpr double kUnusual = 2.0;            // deviations: less is no evidence to be shown
-constexpr int kSteps = 240;                 // of lambda
+constexpr double kPriceOfExplaining = 2.0;  // also of a free lambda
+constexpr double kWorthNaming = 3.5;        // about 3.5 deviations of a single feature, with the price
+constexpr double kUnusual = 2.0;            // deviations; smaller ones are not shown as evidence
+constexpr int kSteps = 240;                 // steps of lambda
 constexpr std::size_t kMostFindings = 3;
 constexpr std::array kRatios{30.0, 50.0, 80.0, 100.0, 120.0, 160.0};  // of strain-wave gears
 
@@ -29,7 +29,7 @@ class Explanation {
   Explanation(const Evidence& evidence, double temperature_C, const Cause& cause)
       : evidence_(evidence), temperature_C_(temperature_C), cause_(cause) {}
 
-  /// The best lambda's, over `features`.
+  /// Finds the lambda with the smallest misfit to `features`.
   void fit(const Features& features) {
     misfit_ = 1e300;
     for (const double lambda : sizes()) {
@@ -64,7 +64,7 @@ class Explanation {
     return sizes;
   }
 
-  /// Of a lambda that is free. One of a few gears that fits by chance is rarer.
+  /// Price of a free lambda. A lambda from few gear ratios has none, since it rarely fits by chance.
   double price() const {
     return cause_.by_catalogue || (cause_.moves.empty() && !cause_.by_temperature) ? 0.0 : kPriceOfExplaining;
   }
@@ -111,7 +111,7 @@ double misfit_of_none(const Features& features) {
   return sum;
 }
 
-/// Adds what `best` accounts for to the finding, and takes it out of `features`.
+/// Moves the features that `best` explains from `features` to the evidence of a finding.
 Finding take_out(const Explanation& best, double probability, Features& features) {
   Finding finding{best.cause().name, {}, best.cause().remedy, probability};
   for (std::size_t i = 0; i < kFeatureCount; ++i) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From features to findings: the cause that explains most of what is unusual is named first. Not real-time.
+// Derives findings from features. The first finding is the cause that explains the unusual features best. Not real-time.
 //
 //   misfit(cause) = min over lambda of  sum over features of  rho((x - lambda a) / s)
-//                   of which those that it explains by any amount count at most kPriceOfExplaining;
-//                   + kPriceOfExplaining where there is a lambda
-//   rho(z) = 4 ln(1 + z^2 / 4), the tail of Student's distribution: a knock-on effect that no cause predicts does not outweigh all else
+//                   where each feature in cause.explains counts at most kPriceOfExplaining;
+//                   + kPriceOfExplaining if lambda is free
+//   rho(z) = 4 ln(1 + z^2 / 4), the tail of Student's distribution: one side effect that no cause predicts does not outweigh the rest
 //
-// Where that is better than no cause by kWorthNaming it is a finding; what it explains is taken away, and the rest is looked at again.
+// A cause is a finding if its misfit is at least kWorthNaming below that of no cause. Its features are then removed, and the search repeats.
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ namespace strainwave {
 
 struct Finding {
   std::string_view cause;
-  std::vector<std::string> evidence;  ///< what was measured, and what was expected
+  std::vector<std::string> evidence;  ///< measured and expected values
   std::string_view remedy;
-  double probability = 0.0;  ///< among the causes that are known here
+  double probability = 0.0;  ///< among the known causes
 };
 
 struct Diagnosis {
-  std::vector<Finding> findings;        ///< the likeliest first
-  std::vector<std::string> not_judged;  ///< what, and what it needs
+  std::vector<Finding> findings;        ///< the best explanation first
+  std::vector<std::string> not_judged;  ///< what is not judged, and what it needs
 };
 
 Diagnosis diagnose(const Evidence& evidence);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of the positions alone: noise, and the link's encoder against the motor's.
+// Features from positions only: noise, and the link's encoder against the motor's.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double kSteady = 0.02;
 constexpr double kFastShare = 0.5;  // of the fastest motion
 constexpr double kStanding_rad_s = 0.05;
 
-// Third differences have no part of a steady acceleration; of white noise they have 20 times its variance.
+// Third differences remove a steady acceleration, and have 20 times the variance of white noise.
 void add_noise(const Evidence& evidence, const std::vector<Stretch>& stretches, Features& features) {
   std::vector<double> squares;
   for (const Stretch& stretch : stretches)
@@ -52,7 +52,7 @@ bool is_steady(const Stretch& stretch, std::size_t i) {
   return std::abs(stretch.velocity_rad_s[i - 10] - now_rad_s) <= kSteady * std::abs(now_rad_s) + 0.005;
 }
 
-// From rest or steady motion to the next the spring is as before: what turned between has slipped.
+// The spring has the same wind-up in each steady motion or rest. A relative motion from one to the next is slip.
 double slipped_rad(const std::vector<Stretch>& stretches, double link_ratio) {
   double most_rad = 0.0;
   for (const Stretch& stretch : stretches) {
@@ -92,7 +92,7 @@ void add_link(const std::vector<Stretch>& stretches, Features& features) {
       if (speed < kStanding_rad_s || !std::isfinite(stretch.link_rad[i]) ||
           !std::isfinite(stretch.link_rad[i - 1]))
         continue;
-      // A coupling slips where the joint accelerates, counts are lost where it is fast.
+      // Only steady motion counts, because a coupling slips during acceleration. Counts are lost at high speed.
       if (i < 10 || !is_steady(stretch, i)) continue;
       Travel& travel = speed > kFastShare * fastest ? fast : slow;
       travel.motor_rad += way * (stretch.position_rad[i] - stretch.position_rad[i - 1]);

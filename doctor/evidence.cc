@@ -8,7 +8,7 @@
 namespace strainwave {
 
 void Evidence::take(const state_v1& state) {
-  // A repeated or older cycle is another daemon's, or a datagram that came twice.
+  // A repeated or older cycle comes from another daemon, or from a duplicated datagram.
   if (!samples.empty() && state.cycle <= samples.back().cycle) return;
   samples.push_back({.cycle = state.cycle,
                      .utime = state.utime,

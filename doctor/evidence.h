@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the doctor judges by: states of one joint over time, the daemon's other messages, and what the configuration says. Joint side, SI.
+// Evidence for a diagnosis: states of one joint over time, the daemon's other messages, and the configuration. Joint side, SI.
 // Not real-time.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace strainwave {
 
-/// One cycle of the joint, as state_v1 or a flight record has it.
+/// One cycle of the joint, from state_v1 or a flight record.
 struct DoctorSample {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   std::int64_t cycle = 0;
@@ -46,15 +46,15 @@ struct Evidence {
   void take(const state_v1& state);
   void take(const temperature_v1& temperature) { temperatures.push_back(temperature); }
   void take(const timing_v1& timing);
-  /// What the configuration file left open is taken from them.
+  /// Keeps the limits and the period, and completes an inertia that the configuration file lacks.
   void take(const limits_v1& published);
-  /// Messages that say nothing about the joint.
+  /// Ignores messages without information about the joint.
   template <typename Message>
   void take(const Message&) {}
 
-  /// Of the encoder; a usual one where the configuration does not say.
+  /// Size of an encoder count, with a typical value if the configuration has none.
   double count_rad() const { return told.count_rad.value_or(5e-5); }
-  /// The joint's; a usual one where no limits came.
+  /// The joint's torque limit, with a typical value if no limits were received.
   double torque_limit_Nm() const { return limits ? limits->torque_limit_Nm : 30.0; }
   /// 0: not known.
   double gear_ratio() const { return limits ? limits->gear_ratio : 0.0; }
@@ -62,9 +62,9 @@ struct Evidence {
   bool chattered() const;
   /// Mean of the temperatures that the controller used; NaN: none.
   double mean_temperature_C() const;
-  /// What the configured gain table says at this temperature. Nothing: no table, or no temperature.
+  /// Friction of the configured gain table at this temperature. Nothing: no table, or no temperature.
   std::optional<FrictionParameters> friction_at(double temperature_C) const;
-  /// The usual distance of two samples, periods; 0: fewer than two samples.
+  /// Median distance of consecutive samples, periods; 0: fewer than two samples.
   std::int64_t stride_periods() const;
 };
 

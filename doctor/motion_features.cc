@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of the motion against torque: inertia, friction, stiffness, delay, load.
+// Features from motion and torque: inertia, friction, stiffness, delay, load.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,20 +15,20 @@ namespace strainwave {
 
 namespace {
 
-// What healthy joints differ by from their configuration, as standard deviations. Notices begin at about three of them
+// Standard deviations of healthy joints from their configuration. The daemon's notices begin at about three of them
 // (kOtherInertia 30 %, kFrictionDiffers 1.5 times).
 constexpr double kInertiaTolerance = 0.08;
 constexpr double kFrictionTolerance = 0.13;
 constexpr double kViscousTolerance = 0.15;
-constexpr double kViscousFit_Nms_rad = 0.08;  // by which the rules of tables miss warm friction's slope
+constexpr double kViscousFit_Nms_rad = 0.08;  // error of the tables' rules for the slope of warm friction
 constexpr double kStiffnessTolerance = 0.12;
 constexpr double kDelayTolerance_periods = 0.2;
 constexpr double kLoadShare = 0.015;  // of the torque limit
-// What is known worse than by this share, or at this many deviations, is not known.
+// Largest relative deviation of a known value, and the deviations from 0 at which a wrong sign is certain.
 constexpr double kKnownShare = 0.25;
 constexpr double kSure = 4.0;
 constexpr double kLeastWindUp_counts = 5.0;
-constexpr double kInertiaKnownShare = 0.1;  // so that an inertia 1.8 times the configured is named
+constexpr double kInertiaKnownShare = 0.1;  // small enough to find an inertia of 1.8 times the configured
 
 Observation ratio_of(double measured, double told, double deviation, double tolerance, std::string text) {
   const double share = deviation / std::abs(measured);
@@ -43,7 +43,7 @@ void add_friction(const Evidence& evidence, const MotionFit& fit, Features& feat
         "friction, torque constant and temperature sensor by friction: give --config with joint.table");
     return;
   }
-  // Too little of either to be compared: the joint hardly moved.
+  // If the joint hardly moved, neither is known well enough to be compared.
   const auto known = [](const MotionEstimate& estimate) {
     return estimate.value > 0.0 && estimate.deviation < kKnownShare * estimate.value;
   };
@@ -60,7 +60,7 @@ void add_friction(const Evidence& evidence, const MotionFit& fit, Features& feat
                     fit.viscous_Nms_rad.value, fit.viscous_Nms_rad.deviation, told->viscous_Nms_rad));
 }
 
-/// What the user configures; empty: the joint is rigid, or the motor alone has more than was measured.
+/// The load inertia to configure. Empty: the joint is rigid, or the motor alone has more than the measured inertia.
 std::string implied_load(const Evidence& evidence, double inertia_kgm2) {
   if (!evidence.told.link) return "";
   const double load_kgm2 = inertia_kgm2 - evidence.told.link->motor_inertia_kgm2;
@@ -91,7 +91,7 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
                     inertia.deviation, *evidence.told.inertia_kgm2, implied_load(evidence, inertia.value)));
 }
 
-/// By how much the link's inertia winds the gear up, counts of the encoder.
+/// Wind-up of the gear by the link's inertia, in counts of the encoder.
 double wind_up_counts(const Evidence& evidence, const MotionFit& fit) {
   const ConfiguredLink& link = *evidence.told.link;
   return link.link_inertia_kgm2 * fit.acceleration_rad_s2 / link.spring.stiffness_1_Nm_rad /
@@ -145,8 +145,8 @@ void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& fea
                            scale.value * told_Nm_rad, scale.deviation * told_Nm_rad, told_Nm_rad));
 }
 
-// A joint that chatters from its first stroke on is stopped before its motion shows the delay. The drive's own torque shows it then; a drive
-// that repeats the order instead of measuring is never late.
+// A limit cycle from the first stroke on stops the joint before its motion shows the delay. The torque that the drive reports then shows it.
+// A drive that reports the command instead of a measurement never seems late.
 void add_torque_lag(const Evidence& evidence, Features& features) {
   if (!evidence.told.delay_periods || evidence.stride_periods() != 1) return;
   constexpr std::size_t kMostLag = 12;
@@ -158,7 +158,7 @@ void add_torque_lag(const Evidence& evidence, Features& features) {
   const auto best = std::min_element(squares.begin() + 1, squares.end() - 1);
   // A torque that hardly varies fits any lag.
   if (*best > 0.5 * std::min(best[-1], best[1])) return;
-  // What is reported acted in the period before.
+  // The reported torque acted in the period before.
   const auto lag_periods = static_cast<double>(best - squares.begin()) - 1.0;
   features[Feature::kTorqueLag] = Observation{
       std::max(0.0, lag_periods - *evidence.told.delay_periods), kDelayTolerance_periods,
@@ -166,16 +166,16 @@ void add_torque_lag(const Evidence& evidence, Features& features) {
                   lag_periods, *evidence.told.delay_periods)};
 }
 
-// A joint that runs away is soon stopped: too short for the fit. Its energy grows while the torque works against its motion.
+// A runaway joint is stopped too soon for the fit. Its speed grows although the torque acts against the motion.
 void add_runaway(const Evidence& evidence, Features& features) {
   constexpr double kBefore_s = 0.06;
-  constexpr double kLeastTorque = 0.2;  // of the limit, mean: a load that falls is held back by less
+  constexpr double kLeastTorque = 0.2;  // mean, share of the limit; less holds back a falling load
   constexpr double kLeastSpeed_rad_s = 0.3;
   const double limit_Nm = evidence.torque_limit_Nm();
   const auto& samples = evidence.samples;
   for (std::size_t end = 2; end < samples.size(); ++end) {
     if (samples[end].fault == 0 || samples[end - 1].fault != 0) continue;
-    // A torque that oscillates is as often against the motion as with it.
+    // An oscillating torque acts as often against the motion as with it.
     if (static_cast<Fault>(samples[end].fault) == Fault::kChatter) return;
     std::size_t begin = end - 1;
     double work_J = 0.0, torque_Nm = 0.0;
@@ -213,7 +213,7 @@ void add_motion_features(const Evidence& evidence, Features& features) {
         kLeastMotionWindows));
     return;
   }
-  // A swing is no sliding that shows friction. A rigid joint's shows its inertia; a flexible one's is of motor, link and spring at once.
+  // A limit cycle does not show sliding friction. It shows the inertia of a rigid joint, but mixes motor, link and spring of a flexible one.
   const bool chattered = evidence.chattered();
   if (chattered)
     features.not_judged.emplace_back(

@@ -12,14 +12,14 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kNoise_Nm = 0.3;       // of a window: what weighs measurement against prior
+constexpr double kNoise_Nm = 0.3;       // of a window; weights the measurement against the priors
 constexpr double kScaleNoise_Nm = 0.6;  // likewise, for the spring
-constexpr double kSplitPrior = 1.0;     // of Jm and Jl over the configured, their difference
-constexpr double kScalePrior = 0.5;     // of ln(scale), standard deviation
+constexpr double kSplitPrior = 1.0;     // of the difference of Jm and Jl, each over the configured
+constexpr double kScalePrior = 0.5;     // standard deviation of ln(scale)
 constexpr double kCoarse = 0.1, kFine = 0.02;
 constexpr int kPasses = 2;
-constexpr double kImpossible = 1e12;     // N2.m2, more than any motion leaves
-constexpr double kMostError_rad = 5e-4;  // of a gear, each part
+constexpr double kImpossible = 1e12;     // N2.m2, above the squared residuals of any motion
+constexpr double kMostError_rad = 5e-4;  // limit of each part of a gear's error
 constexpr int kParameters = kMotionColumns;
 using Rows = MotionRows;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
@@ -41,7 +41,7 @@ class Regression {
     if (windows_.count() < kLeastMotionWindows) return std::nullopt;
     for (int d = 0; d <= 2 * MotionWindows::kMostDelay; ++d) torques_.push_back(windows_.torques(0.5 * d));
     const bool flexible = windows_.flexible();
-    // A swing with 2 % of damping is a fiftieth of its frequency wide.
+    // A resonance with 2 % damping is a fiftieth of its frequency wide, so a fine grid follows the coarse one.
     for (int i = 0; i < (flexible ? kPasses : 1); ++i) {
       use_scales(flexible ? 18 : 0, kCoarse, 1.0);
       search();
@@ -71,7 +71,7 @@ class Regression {
     windows_.assume(link);
   }
 
-  /// 2 count + 1 scales about `middle`, evenly spaced by ratio.
+  /// Uses 2 count + 1 scales around `middle`, with equal ratios.
   void use_scales(int count, double step, double middle) {
     scales_.clear();
     rows_.clear();
@@ -81,7 +81,7 @@ class Regression {
     }
   }
 
-  // Weak: what the motions do not show stays near what is usual.
+  // Standard deviations of weak priors around 0: parameters that the motion does not show stay small.
   Solution priors() const {
     const double limit_Nm = evidence_.torque_limit_Nm();
     Solution prior;
@@ -108,7 +108,7 @@ class Regression {
     }
     return normal.inverse();
   }
-  /// The solution in which parameter `i` is 0.
+  /// Changes the solution to the one in which parameter `i` is 0.
   static void leave_out(int i, Solved& solved) {
     const Solution column = solved.inverse.col(i) / solved.inverse(i, i);
     solved.parameters -= solved.parameters[i] * column;
@@ -117,7 +117,7 @@ class Regression {
   Solved solve(std::size_t scale, std::size_t delay, const Normal& inverse) const {
     const Solution right = rows_[scale].transpose() * weights_.cwiseProduct(torques_[delay]);
     Solved solved{0.0, inverse * right, inverse};
-    // In a swing, friction that drives looks like less delay.
+    // In a swing, viscous friction of the wrong sign looks like a shorter delay.
     const double inertia_kgm2 = solved.parameters[kMotor] + solved.parameters[kLink];
     if (solved.parameters[kViscous] * inertia_kgm2 < 0.0) leave_out(kViscous, solved);
     const Eigen::VectorXd left = torques_[delay] - rows_[scale] * solved.parameters;
@@ -137,7 +137,7 @@ class Regression {
       for (std::size_t d = 0; d < torques_.size(); ++d) {
         const Solved solved = solve(s, d, inverse);
         squares_[s][d] = solved.squares + prior_squares(scales_[s]);
-        // Half a turn of a swing later, torque that oscillates fits a negative inertia.
+        // Shifted by half a period of the oscillation, an oscillating torque fits a negative inertia.
         if (evidence_.chattered() && solved.parameters[kMotor] + solved.parameters[kLink] <= 0.0)
           squares_[s][d] = kImpossible;
         if (squares_[s][d] >= squares_[best_scale_][best_delay_]) continue;
@@ -163,7 +163,7 @@ class Regression {
 
   MotionFit result(bool flexible) {
     const Solved solved = solve(best_scale_, best_delay_, inverse_normal(best_scale_));
-    constexpr double kOverlap = 16.0;  // windows share samples, and what the model leaves out is not white
+    constexpr double kOverlap = 16.0;  // windows share samples, and the model's errors are not white
     const double count = std::max(1.0, weights_.sum() - kParameters);
     const double noise_squares = kOverlap * solved.squares / count;
     MotionFit fit;
@@ -194,13 +194,13 @@ class Regression {
     return estimate;
   }
 
-  // The grid's scale is of K / Jl: that of K follows with the link's inertia.
+  // The grid's scale applies to K / Jl. The scale of K follows from the estimated inertia of the link.
   std::optional<MotionEstimate> stiffness_estimate(const Solved& solved, double noise_squares) const {
     if (solved.parameters[kLink] <= 0.0) return std::nullopt;
     const std::size_t s = std::clamp<std::size_t>(best_scale_, 1, scales_.size() - 2);
     const auto at = [&](std::size_t i) { return squares_[i][best_delay_]; };
     MotionEstimate step = refined(at(s - 1), at(s), at(s + 1), kFine, noise_squares);
-    // What the prior alone holds in its place, the motions do not show.
+    // The deviation leaves out the prior, so that it reflects only what the motion shows.
     const auto shown = [&](std::size_t i) { return at(i) - prior_squares(scales_[i]); };
     step.deviation = refined(shown(s - 1), shown(s), shown(s + 1), kFine, noise_squares).deviation;
     const double scale =

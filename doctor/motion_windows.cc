@@ -8,7 +8,7 @@ namespace strainwave {
 
 namespace {
 
-// Short enough that a swing of 50 Hz passes, long enough that counts do not count.
+// Short enough to pass a swing of 50 Hz, and long enough to average the encoder's counts.
 constexpr double kWindow_s = 0.014;
 constexpr int kLeastWindowSamples = 14;
 constexpr double kSlow_rad_s = 0.08;  // above the Stribeck range of the catalogue's joints
@@ -99,8 +99,8 @@ MotionRows MotionWindows::rows(double scale) const {
   return rows;
 }
 
-// To the motor's motion with the error that is assumed, and to each part of the error by 0.1 mrad more. The gear's slope turns with the error,
-// and so does the share of the link's torque that the motor feels.
+// Responses of the link to the motor's motion with the assumed error, and to 0.1 mrad more of each part of the error. The slope of the
+// error changes the gear's ratio, and with it the share of the link's torque that acts on the motor.
 std::array<std::vector<double>, 5> MotionWindows::link_responses(const Stretch& stretch, double scale) const {
   const ConfiguredLink& told = *evidence_.told.link;
   const double ratio = evidence_.gear_ratio();
@@ -140,7 +140,7 @@ std::vector<double> MotionWindows::positions_rad() const {
   return positions;
 }
 
-// The integral of phi over its width of 2.
+// The integral of phi over -1..1 is 256 / 315.
 double MotionWindows::normaliser() const noexcept {
   return half_ * 256.0 / 315.0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The windows of a recording over which the equation of motion is integrated, and its two sides there; see motion_fit.h. Not real-time.
+// Windows of a recording, and both sides of the equation of motion integrated over them; see motion_fit.h. Not real-time.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,18 @@ enum MotionQuantity { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, 
 inline constexpr int kMotionColumns = 11;
 using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionColumns>;
 
-/// What the link's equation, which is not linear, is written about.
+/// Point about which the nonlinear equation of the link is linearised.
 struct AssumedLink {
-  std::array<double, 4> error_rad{};  ///< of the gear: sine and cosine of the motor's turn, and of twice that
-  double bias_Nm = 0.0, sine_Nm = 0.0, cosine_Nm = 0.0;  ///< load over the position
+  std::array<double, 4> error_rad{};  ///< kinematic error: sine, cosine of the motor's angle, and of twice it
+  double bias_Nm = 0.0, sine_Nm = 0.0, cosine_Nm = 0.0;  ///< load as a function of position
 };
 
 class MotionWindows {
  public:
-  static constexpr double kErrorUnit_rad = 1e-4;  ///< of the columns from kError on
+  static constexpr double kErrorUnit_rad = 1e-4;  ///< unit of the columns from kError on
   static constexpr int kMostDelay = 8;            ///< periods
 
-  /// `evidence` outlives this.
+  /// `evidence` must outlive this object.
   explicit MotionWindows(const Evidence& evidence);
 
   int count() const noexcept { return static_cast<int>(windows_.size()); }
@@ -36,7 +36,7 @@ class MotionWindows {
   Eigen::VectorXd torques(double delay_periods) const;
   /// The right side's columns, with the configured spring times `scale`.
   MotionRows rows(double scale) const;
-  /// For the rows from here on.
+  /// Sets the point of linearisation for later calls of rows().
   void assume(const AssumedLink& link) { assumed_ = link; }
   const AssumedLink& assumed() const { return assumed_; }
   /// Positions in the middle of each window.
@@ -56,7 +56,7 @@ class MotionWindows {
   std::vector<Window> windows_;
   AssumedLink assumed_;
   double step_s_ = 0.0;
-  int half_ = 0;  ///< of a window, samples
+  int half_ = 0;  ///< half a window, samples
 };
 
 }  // namespace strainwave

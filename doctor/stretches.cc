@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMostBridged = 3;
 constexpr std::size_t kShortest = 40;
-// More than a drive's ripple and its current's noise.
+// A lost torque must exceed a drive's ripple and the noise of its current.
 constexpr double kLostShare = 0.05, kLost_Nm = 0.2;
 
 bool controlled(const DoctorSample& sample) {
@@ -39,7 +39,7 @@ void bridge(Stretch& stretch, const DoctorSample& from, const DoctorSample& to, 
   }
 }
 
-// Whatever the delay is, a torque that oscillates is not lost: it comes later.
+// Compares with the smallest recent command, since an oscillating torque with an unknown delay is not lost.
 double lost_Nm(const Stretch& stretch, std::size_t i) {
   constexpr std::size_t kLately = 10;
   if (i < kLately) return 0.0;

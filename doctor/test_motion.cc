@@ -36,7 +36,7 @@ std::vector<TestStroke> plan_test_motion(const limits_v1& limits, double positio
     stroke(low, share * fastest);
     stroke(high, share * fastest);
   }
-  // Short ones show delay and stiffness.
+  // Short strokes show delay and stiffness.
   for (int i = 0; i < 4; ++i) {
     stroke(high - kShort_rad, fastest);
     stroke(high, fastest);
