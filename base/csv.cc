@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& columns) {
   return header;
 }
 
-/// Of the first column in a unit that is not used here.
+/// Advice on converting the first column whose unit the project does not use; empty if there is none.
 std::string conversion_of(const std::vector<std::string>& columns) {
   for (const std::string& column : columns)
     if (const std::string conversion = unit_conversion(column); !conversion.empty())
@@ -29,7 +29,7 @@ std::string conversion_of(const std::vector<std::string>& columns) {
   return "";
 }
 
-/// As spreadsheets write it where the decimal sign is a comma.
+/// Spreadsheets separate fields by semicolons or tabs in countries with a decimal comma.
 void refuse_other_separators(std::string_view header, const std::string& where) {
   const std::size_t separator = header.find_first_of(";\t");
   if (header.find(',') != std::string_view::npos || separator == std::string_view::npos) return;
@@ -49,7 +49,7 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
-/// No editor, and no spreadsheet, writes such a byte into lines of text.
+/// True for control characters that text editors and spreadsheets never write.
 bool is_no_text(char byte) {
   return static_cast<unsigned char>(byte) < ' ' &&
          std::string_view("\t\n\v\f\r").find(byte) == std::string_view::npos;

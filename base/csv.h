@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strict reader of the project's CSV files: comment lines begin with '#', then one header line, then rows of as many fields.
-// Not real-time.
+// Strict reader of the project's CSV files. Comment lines begin with '#'. One header line comes before the rows, and each row has as many
+// fields as the header. Not real-time.
 #pragma once
 
 #include <concepts>
@@ -14,13 +14,13 @@ namespace strainwave {
 
 template <typename Field>
 struct CsvRows {
-  std::string source;  ///< named in messages
+  std::string source;  ///< name of the file in messages
   std::vector<std::string> columns;
   int header_line = 0;
   std::vector<std::vector<Field>> rows;  ///< each as long as `columns`
-  std::vector<int> line_numbers;         ///< of each row in the file, from 1
+  std::vector<int> line_numbers;         ///< line of each row in the file, from 1
 
-  /// Index of a column. Throws InputError that names those that are there when it is missing.
+  /// Index of a column. Throws InputError that lists the existing columns if it is missing.
   std::size_t column(const std::string& name) const;
   /// Throws InputError unless the header is exactly `names`, in this order.
   void require_columns(const std::vector<std::string>& names) const;
@@ -28,20 +28,20 @@ struct CsvRows {
   std::string place(std::size_t row) const { return source + ":" + std::to_string(line_numbers.at(row)); }
 };
 
-using CsvText = CsvRows<std::string>;  ///< fields without the blanks around them; they are not quoted
-using CsvTable = CsvRows<double>;      ///< finite numbers alone
+using CsvText = CsvRows<std::string>;  ///< fields without surrounding blanks; quoting is not supported
+using CsvTable = CsvRows<double>;      ///< finite numbers only
 
-/// Throws InputError on what is no text, and "file:line: ..." on repeated columns, a row of another length, a file without a row, and for a CsvTable
-/// on a field that is not a finite number. A byte order mark is skipped.
+/// Throws InputError if the bytes are not text, and if the file has no row. Throws "file:line: ..." on repeated columns, a row of another
+/// length and, for a CsvTable, a field that is not a finite number. A byte order mark is skipped.
 CsvText parse_csv_text(std::string_view text, const std::string& source);
 CsvTable parse_csv(std::string_view text, const std::string& source);
 CsvText read_csv_text(const std::filesystem::path& path);
 CsvTable read_csv(const std::filesystem::path& path);
 
-/// The number that `text` is, whole; throws InputError "<where>: <key> = <text>: must be a finite number".
+/// Converts the whole of `text`. Throws InputError "<where>: <key> = <text>: must be a finite number".
 double parse_number(std::string_view text, const std::string& where, const std::string& key);
 
-/// `value` as it is written: NaN without its sign, which says nothing and which readers stumble over ("-nan").
+/// `value` as a CSV file shows it. NaN loses its sign, which has no meaning and which some readers reject ("-nan").
 template <typename Number>
 constexpr Number csv_number(Number value) noexcept {
   if constexpr (std::floating_point<Number>)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Durations as the loop counts time: whole nanoseconds. Real-time safe.
+// Durations in whole nanoseconds, the loop's unit of time. Real-time safe.
 #pragma once
 
 #include <cmath>

@@ -6,11 +6,11 @@
 
 namespace strainwave {
 
-/// Runs gnuplot on `script` and waits for it. Throws std::runtime_error: gnuplot cannot be run (and which package has it), or refuses
-/// the script, with what it said.
+/// Runs gnuplot on `script` and waits for its end. Throws std::runtime_error if gnuplot cannot start, with the package to install.
+/// Also throws if gnuplot refuses the script, with its output.
 void run_gnuplot(const std::string& script);
 
-/// `text` as a string of gnuplot, in single quotes: nothing in it is a command. Control characters are left out.
+/// `text` as a gnuplot string in single quotes, in which gnuplot interprets nothing. Control characters are left out.
 std::string gnuplot_quoted(const std::string& text);
 
 }  // namespace strainwave

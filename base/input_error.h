@@ -9,8 +9,8 @@
 
 namespace strainwave {
 
-/// Says what was wrong, where, what is allowed and what to do; what() is the whole sentence for the user. It may quote what a file,
-/// a device or a name says: whatever commands a terminal in it is shown as question marks, line by line.
+/// what() is the complete sentence for the user: what is wrong, where, what is allowed and what to do. It may quote a file, a device
+/// or a name, so terminal control characters other than line feeds become question marks.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
@@ -20,7 +20,7 @@ class InputError : public std::runtime_error {
       : InputError(where + ": " + key + " = " + printable(value) + ": " + allowed) {}
 };
 
-/// What was asked for makes sense and was tried, and did not come about: there are no such gains, the disk was full. Programs end with
+/// The request was valid and was tried, but failed: no such gains exist, or the disk is full. Programs end with
 /// ExitStatus::kRefused.
 class NotAchieved : public InputError {
  public:

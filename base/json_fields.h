@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of a struct in JSON, each named once for both ways. A function template gives every field with its key to a writer or a reader:
+// Writes structs as JSON and reads them. One function template passes every field with its key to a writer or a reader:
 //
 //   template <typename Json>
 //   void fields(Json& json, Interval& interval) {
@@ -7,8 +7,8 @@
 //     json("half_width_95", interval.half_width_95);
 //   }
 //
-// A field is a number, a truth value, a text, a list of numbers, another struct with fields(), a vector of such structs, or one of these
-// that may be missing (std::optional). Both ways keep to what fields() requires of a value, and throw InputError where it does not hold. The
+// A field is a number, a truth value, a text, a list of numbers, another struct with fields(), or a vector of such structs. Each may be
+// optional (std::optional). Writer and reader check the requirements in fields() and throw InputError if a value violates one. The
 // reader is as strict as base/strict_json.h. Not real-time.
 #pragma once
 
@@ -35,7 +35,7 @@
 
 namespace strainwave {
 
-/// More entries than any list of ours has.
+/// Limit of list entries; no list of the project is as long.
 inline constexpr std::size_t kMostJsonEntries = 100'000;
 
 template <typename Value, typename Json>
@@ -58,7 +58,7 @@ class JsonWriter {
  public:
   nlohmann::ordered_json document = nlohmann::ordered_json::object();
 
-  /// `path`: the key of the object that is written.
+  /// `path`: key path of the object that is written, for messages.
   explicit JsonWriter(std::string path = "") : path_(std::move(path)) {}
 
   template <typename Value>
@@ -87,7 +87,7 @@ class JsonWriter {
     list(key, count, 0, entries.size(), [&](auto& json, std::size_t i) { fields(json, entries[i]); });
   }
   void text(const std::string& key, std::string& value, std::size_t) { document[key] = value; }
-  /// An enumeration or a truth value, by its name.
+  /// Writes an enumeration or a truth value as its name.
   template <typename Value, std::size_t N>
   void name(const std::string& key, Value& value, const std::array<const char*, N>& names) {
     const auto number = static_cast<std::size_t>(value);
@@ -96,12 +96,12 @@ class JsonWriter {
     document[key] = names[number];
   }
   void numbers(const std::string& key, std::span<double> values) { document[key] = values; }
-  /// In rows of `columns`.
+  /// Writes the values as rows of `columns` numbers each.
   void matrix(const std::string& key, std::span<double> values, std::size_t columns) {
     auto& rows = document[key] = nlohmann::ordered_json::array();
     for (; !values.empty(); values = values.subspan(columns)) rows.push_back(values.first(columns));
   }
-  /// `count` objects, from `least` to `most`; `entry_fields(json, index)` has the fields of one.
+  /// Writes `count` objects, `least` to `most`. `entry_fields(json, index)` writes the fields of one object.
   template <typename EntryFields>
   void list(const std::string& key, std::int32_t& count, std::size_t least, std::size_t most,
             const EntryFields& entry_fields) {
@@ -115,13 +115,13 @@ class JsonWriter {
       entries.push_back(std::move(entry.document));
     }
   }
-  /// What a value must be, `key` one that was written or read. "gear_ratio = -1: must be above 0"
+  /// Throws InputError unless `good`, such as "gear_ratio = -1: must be above 0". `key` is one that was written or read.
   void require(bool good, const std::string& key, const std::string& allowed) const {
     if (!good) place().complain(key, allowed);
   }
-  /// A key of another kind of file.
+  /// Refuses a key that belongs to another kind of file; only the reader does.
   void refuse(const std::string&, const std::string&) {}
-  /// Of the file; of another one the reader says what to do.
+  /// Writes the file's format number. The reader refuses another number, with advice.
   void format(int expected, const std::string&) { document["format"] = expected; }
 
  private:
@@ -225,7 +225,7 @@ class JsonReader {
     std::array<double, N> given{};
     numbers(key, given);
     for (std::size_t i = 0; i < N; ++i) {
-      // Compared so that what is not finite fails, too.
+      // The first comparison is false for NaN and infinity.
       require(std::abs(given[i]) < 1e9 && given[i] == std::floor(given[i]), key,
               "whole numbers of at most nine digits");
       values[i] = static_cast<std::int32_t>(given[i]);
@@ -235,7 +235,7 @@ class JsonReader {
   StrictObject object_;
 };
 
-/// The whole of a file.
+/// Conversion of a whole file to and from JSON.
 template <typename Value>
 nlohmann::ordered_json to_document(Value value) {
   JsonWriter writer;

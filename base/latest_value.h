@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The newest of the values that one thread makes now and then, for another that must not wait: a real-time loop and the ordinary
-// thread that it interrupts. What is in between is lost. put() and take() are real-time safe.
+// Hands the newest value from one thread to another that must not wait, such as a real-time loop that interrupts the writing
+// thread. Values that are not taken in time are lost. put() and take() are real-time safe.
 //
-// A sequence lock whose reader gives up instead of trying again: the writer may be the very thread that it has interrupted. The
-// value moves as atomic words, so that a torn read is detected and is no data race.
+// A sequence lock whose reader gives up instead of trying again, because it may have interrupted the writer.
+// The value moves as atomic words, so that a torn read is detected and is no data race.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class LatestValue {
   using Words = std::array<std::uint64_t, kWords>;
 
  public:
-  /// One thread only.
+  /// Only one thread may call this.
   void put(const T& value) noexcept {
     Words words{};
     std::memcpy(words.data(), &value, sizeof(T));
@@ -32,7 +32,7 @@ class LatestValue {
     version_.store(version + 2, std::memory_order_release);
   }
 
-  /// The newest value. False, and `value` stays as it was, before the first put() and while one is under way.
+  /// Reads the newest value. Before the first put() and during one, returns false and leaves `value` unchanged.
   bool take(T& value) const noexcept {
     const std::uint64_t version = version_.load(std::memory_order_acquire);
     if (version == 0 || version % 2 != 0) return false;

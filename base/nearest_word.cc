@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-/// Letters to insert, delete or replace.
+/// Number of letters to insert, delete or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -34,7 +34,7 @@ const std::string* nearest_word(std::string_view typed, const std::vector<std::s
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
   for (const std::string& word : known) {
-    // A forgotten unit, or last word, is the likeliest slip.
+    // A forgotten unit or last word is the most likely mistake.
     if (!typed.empty() && (is_begin_of(typed, word) || is_begin_of(word, typed))) return &word;
     const std::size_t distance = edit_distance(typed, word);
     if (distance >= least || distance >= std::max(typed.size(), word.size())) continue;

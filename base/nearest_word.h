@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The allowed word that a user most likely meant, and the unit. Not real-time.
+// Suggestions for mistyped words and for foreign units. Not real-time.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace strainwave {
 
-/// The word of `known` that `typed` most likely was to be: the same without its unit or last words ("speed" for "speed-limit_rad_s"), or
-/// few slips of the pen away (one for three letters, two at least). Null when none is.
+/// The word of `known` that the user most likely meant, or null. Either it differs only by a unit or last words ("speed" for
+/// "speed-limit_rad_s"), or by few letters: one for each three letters typed, and at least two.
 const std::string* nearest_word(std::string_view typed, const std::vector<std::string>& known);
 
-/// How to convert what a key or column in a unit that is not used here gives, as a sentence behind a space; empty for any other.
+/// How to convert a key or column whose unit the project does not use. A sentence after a space; empty for other units.
 std::string unit_conversion(std::string_view key);
 
 }  // namespace strainwave

@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-// What a refusal has of a number that was computed: so many that nobody misses one, and none of its rounding.
+// Significant digits of computed numbers in refusals: six hide rounding errors, 17 identify any double.
 constexpr int kFewestDigits = 6;
 constexpr int kAllDigits = 17;
 
@@ -25,7 +25,7 @@ std::string in_digits(double value, int digits) {
 }
 
 struct Character {
-  std::size_t bytes = 0;  ///< 0: no UTF-8
+  std::size_t bytes = 0;  ///< 0: not UTF-8
   std::uint32_t code = 0;
 };
 
@@ -50,8 +50,8 @@ struct Span {
   std::uint32_t last;
 };
 
-// C0, DEL and C1; what breaks lines, is invisible or turns the direction of writing (Unicode's categories Cc, Zl, Zp and Cf, as far as
-// they show nothing, and the fillers of Hangul).
+// True for C0, DEL, C1, and characters that break lines, are invisible or change the direction of writing. These are Unicode's
+// categories Cc, Zl and Zp, the invisible part of Cf, and the fillers of Hangul.
 bool commands_a_terminal(std::uint32_t code) {
   constexpr std::array<Span, 12> kHidden{{{0x00, 0x1F},
                                           {0x7F, 0x9F},

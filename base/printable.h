@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text and numbers made fit for a terminal or a log. Not real-time.
+// Makes text and numbers safe and readable for a terminal or a log. Not real-time.
 #pragma once
 
 #include <concepts>
@@ -8,21 +8,21 @@
 
 namespace strainwave {
 
-/// `text` up to its first zero byte, without anything that could command a terminal, begin another line, or make it read as something else.
-/// A question mark replaces control characters, invisible ones, those that turn the direction of writing, and bytes that are no UTF-8.
+/// `text` up to its first zero byte. The result cannot control a terminal, begin another line or pass for other text. A question mark
+/// replaces control characters, invisible ones, those that change the direction of writing, and bytes that are not UTF-8.
 std::string printable(std::string_view text);
 
-/// The same of each line of `text`: line feeds stay, and zero bytes become question marks.
+/// The same for all lines of `text`: line feeds stay, and zero bytes become question marks.
 std::string printable_lines(std::string_view text);
 
-/// The same as what a program says of itself: every line but the first is indented, so that no text that was given to it can pass for
-/// a line of its own.
+/// The same for a program's messages: every line but the first is indented, so that quoted input cannot pass for a message of
+/// the program.
 std::string printable_paragraph(std::string_view text);
 
-/// `word` as a shell reads it back: as it is, or in single quotes where it has a space or another character that means something there.
+/// `word` for a shell: unchanged, or in single quotes if it is empty or has a character that may be special there.
 std::string shell_word(const std::string& word);
 
-/// "1 knot", "2 knots". `thing`: one of them.
+/// "1 knot", "2 knots". `thing`: the singular.
 template <std::integral Number>
 std::string counted(Number count, std::string_view thing) {
   return std::to_string(count).append(" ").append(thing).append(count == 1 ? "" : "s");
@@ -31,17 +31,17 @@ std::string counted(Number count, std::string_view thing) {
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
 std::string number_text(double value);
 
-/// The number that `value` is with so many significant digits, 1 to 17.
+/// `value` rounded to `digits` significant digits, 1 to 17.
 double rounded(double value, int digits);
 
-/// How near a bound a number is that was computed: one that is beyond it by no more than this share is at it.
+/// Relative tolerance of computed numbers: one that exceeds its bound by at most this share counts as at the bound.
 inline constexpr double kAtBound = 1e-9;
 
-/// A computed bound that a refusal names, in six digits or as many more as read back to it within a tenth of kAtBound: the printed number
-/// itself is not beyond the bound. For a bound from a file or message, which is compared as it is, use number_text().
+/// Text of a computed bound in a refusal. It has six digits, or as many more as keep it within a tenth of kAtBound, so that the printed
+/// number is itself allowed. A bound from a file or message is compared exactly; use number_text() for it.
 std::string bound_text(double bound);
 
-/// A number that such a bound refuses, in six digits or as many more as tell it from the bound's text.
+/// Text of a number that exceeds such a bound. It has six digits, or as many more as distinguish it from the bound's text.
 std::string beyond_text(double value, double bound);
 
 }  // namespace strainwave

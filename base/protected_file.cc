@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many links as the kernel follows.
+/// The kernel's limit of links in one path.
 constexpr int kMaxLinks = 40;
 
-/// Whose / is: root's, which in a user namespace that does not know root looks like nobody's.
+/// Owner of /: root, or the overflow user 65534 in a user namespace without root.
 uid_t owner_of_root() {
   constexpr uid_t kUnknown = 65534;
   struct stat status {};
@@ -41,7 +41,7 @@ std::optional<std::string> exposure_of(const fs::path& path, const struct stat& 
   return std::nullopt;
 }
 
-/// The way from / to a file, link by link: every folder and every link that decides where it leads.
+/// Walks from / to a file through every folder and link that determines where the path leads.
 class Way {
  public:
   explicit Way(const fs::path& path) { walk(fs::absolute(path)); }
@@ -68,7 +68,7 @@ class Way {
   }
 
  private:
-  /// `path` comes before what is left, and begins at / if it is absolute.
+  /// Inserts the names of `path` before those that are left. An absolute path restarts at /.
   void walk(const fs::path& path) {
     std::list<fs::path> names;
     for (const fs::path& name : path)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of counts from elsewhere, such as messages: they stay at the largest or smallest number instead of wrapping round. Real-time safe.
+// Sums of counts from outside, such as messages. They saturate at the largest or smallest number instead of wrapping. Real-time safe.
 #pragma once
 
 #include <cstdint>

@@ -16,20 +16,20 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Beyond it whoever walks through a document runs out of stack.
+/// Limit of nesting: recursion through a deeper document could exhaust the stack.
 constexpr int kDeepest = 32;
 constexpr std::size_t kShown = 40;
-/// Of a value.
+/// Longest text of a value in a message.
 constexpr std::size_t kMostShown = 60;
 
-/// Whether reading stopped in the digits behind a decimal comma: "inertia_kgm2": 0,356
+/// Whether the parser stopped in the digits after a decimal comma: "inertia_kgm2": 0,356
 bool stopped_behind_comma(std::string_view text, std::size_t at) {
   const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
   while (at > 0 && std::string_view("0123456789.eE+-").find(text[at]) != std::string_view::npos) --at;
   return at > 0 && text[at] == ',' && is_digit(at + 1) && is_digit(at - 1);
 }
 
-/// Where reading stopped and what stands there, in words that need no knowledge of a parser; `byte` counts from 1.
+/// Says where the parser stopped and what the text has there, without terms of parsers. `byte` counts from 1.
 std::string malformed(std::string_view text, const std::string& source, std::size_t byte) {
   const auto shown = [&](std::size_t from) {
     const std::string_view rest = text.substr(from);
@@ -53,7 +53,7 @@ std::string malformed(std::string_view text, const std::string& source, std::siz
 }  // namespace
 
 ordered_json parse_strict_json(std::string_view text, const std::string& source) {
-  // nlohmann keeps the last of repeated keys without a word; the events of its parser show every one.
+  // nlohmann silently keeps the last of repeated keys, but the events of its parser show every key.
   std::vector<std::set<std::string>> open_objects;
   const auto refuse_repeated_keys = [&](int depth, ordered_json::parse_event_t event, ordered_json& parsed) {
     if (depth > kDeepest)
@@ -68,7 +68,7 @@ ordered_json parse_strict_json(std::string_view text, const std::string& source)
     }
     return true;
   };
-  // The parser takes it for the end.
+  // The parser would take a zero byte for the end of the text.
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw InputError(source + ": not valid JSON: byte " + std::to_string(zero + 1) + " is a zero");
   try {

@@ -12,7 +12,7 @@
 
 namespace strainwave {
 
-/// The longest name, path or sentence in a file of ours, where nothing shorter is said.
+/// Default limit of a name, path or sentence in a file of the project.
 inline constexpr std::size_t kMaxTextBytes = 4096;
 
 /// Parses `text`; malformed JSON and repeated keys are errors. `source` is named in messages.
@@ -43,10 +43,10 @@ class StrictObject {
   /// Accepts a key without reading it.
   void ignore(const std::string& key) { read_.insert(key); }
   void finish() const;
-  /// "path.key", and of an entry of a list "path.key[index]".
+  /// "path.key", or "path.key[index]" for an entry of a list.
   std::string path_of(const std::string& key) const;
   std::string path_of(const std::string& key, std::size_t index) const;
-  /// "source: path.key": what messages begin with; and with its value, unless that is an object.
+  /// "source: path.key", the beginning of messages. shown() adds " = value", unless the value is an object.
   std::string where(const std::string& key) const;
   std::string shown(const std::string& key) const;
   /// "source: path.key = value: must be `allowed`".

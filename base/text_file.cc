@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 128u << 20;
 
-// A name that was given wrongly is one thing, a disk that is full or fails another.
+// A full or failing disk is not bad input, so the error is NotAchieved.
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
   throw NotAchieved(path.string() + ": cannot write: " + std::generic_category().message(error));
 }
@@ -29,14 +29,14 @@ constexpr std::uintmax_t kMaxFileBytes = 128u << 20;
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
 }
 
-// What `path` names in the end: who wrote a link meant what it leads to, there or not. Throws InputError: a folder, or links that go round.
+// Follows links to the file that `path` finally names, which need not exist. Throws InputError for a folder, pipe, device or endless link.
 std::filesystem::path behind_links(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InputError(path.string() + ": is a folder: name a file");
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw InputError(path.string() + ": is a pipe or a device: name a file");
-  constexpr int kMostLinks = 40;  // as the kernel follows
+  constexpr int kMostLinks = 40;  // the kernel's limit
   std::filesystem::path target = path;
   for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
     const std::filesystem::path next = std::filesystem::read_symlink(target, error);
@@ -69,7 +69,7 @@ class TemporaryFile {
     }
   }
   void become_target() {
-    // mkstemp makes a private file; a table is for everyone to read, as far as the umask allows.
+    // mkstemp makes a private file, but other users may read the result as far as the umask allows.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::fchmod(descriptor_.get(), 0666 & ~mask) != 0 || ::fsync(descriptor_.get()) != 0)
@@ -80,7 +80,7 @@ class TemporaryFile {
   }
 
  private:
-  // The rename itself lives in the folder. Some file systems refuse this; the data are safe either way.
+  // Makes the rename durable. Some file systems refuse to sync a folder; the data are safe either way.
   void sync_folder() const {
     const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
     const UniqueFd descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -99,7 +99,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InputError(path.string() + ": is a folder, not a file");
-  // A pipe nobody writes to would wait for ever, a device never end.
+  // Reading a pipe without a writer would wait for ever, and a device may never end.
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw InputError(path.string() + ": is a pipe or a device, not a file");
   std::ifstream file(path, std::ios::binary);

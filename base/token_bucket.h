@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often something may happen: `per_second` on the average, `burst` at once.
+// Rate limit of events: `per_second` on average, `burst` at once.
 //
-//   left(t) = min(burst, left(t0) + (t - t0) per_second)        begins full; each that is taken takes 1
+//   left(t) = min(burst, left(t0) + (t - t0) per_second)        begins full; each event takes 1
 //
-// Time is an argument and may stand still; what goes back counts as standing still. Bounded memory, no clock.
+// Time is an argument and may stand still; time that goes back counts as standing still. Bounded memory, no clock.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class TokenBucket {
   TokenBucket(double per_second, double burst) noexcept
       : per_second_(per_second), burst_(burst), left_(burst) {}
 
-  /// How many there are at `now_ns`, up to the burst; less than 1: none.
+  /// Events that are allowed at `now_ns`, up to `burst`; below 1 none is.
   double left(std::int64_t now_ns) noexcept {
     if (now_ns > filled_ns_) {
       left_ = std::min(burst_, left_ + seconds(now_ns - filled_ns_) * per_second_);
@@ -27,7 +27,7 @@ class TokenBucket {
     }
     return left_;
   }
-  /// One of those that left() has shown.
+  /// Takes 1. left() must have returned at least 1.
   void take() noexcept { left_ -= 1.0; }
   bool try_take(std::int64_t now_ns) noexcept {
     if (left(now_ns) < 1.0) return false;

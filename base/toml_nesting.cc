@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-/// Where the string that begins `text` ends; one of a single line at the latest with its line.
+/// Length of the string with which `text` begins. A single-line string ends with its line at the latest.
 std::size_t string_length(std::string_view text) {
   const char quote = text.front();
   const bool escapes = quote == '"';
@@ -23,7 +23,7 @@ std::size_t string_length(std::string_view text) {
       if (text[i] == quote) return i + 1;
       if (text[i] == '\n') return i;
     } else if (text.substr(i).starts_with(mark)) {
-      // Up to two quotes before the closing three are the string's own.
+      // Up to two quotes next to the closing three belong to the string.
       i += 3;
       for (int own = 0; own < 2 && i < text.size() && text[i] == quote; ++own) ++i;
       return i;
@@ -37,8 +37,8 @@ std::size_t comment_length(std::string_view text) {
 }
 
 struct Depth {
-  int dots = 0;      ///< of the key, or number, that is being read
-  int brackets = 0;  ///< that are open
+  int dots = 0;      ///< in the key or number that is being read
+  int brackets = 0;  ///< open ones
 
   void see(char character) {
     if (character == '.') {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep a TOML text nests, before anything that recurses sees it: toml++ bounds the values in each other, but makes a table for
-// every dot of a key, and destroys tables by recursion. Not real-time.
+// Checks how deep a TOML text nests before toml++ parses it. The parser limits nested values, but it makes a table for every dot of a key,
+// and destroys tables recursively. Not real-time.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace strainwave {
 
-/// Dots of one key, and brackets in each other: of both, more than any file of ours has.
+/// Limit of the dots in one key and of nested brackets. No file of the project reaches it.
 inline constexpr int kDeepestToml = 32;
 
-/// Throws InputError that names `file` and the line where a key has more dots, or brackets lie deeper in each other, than
-/// kDeepestToml. Strings and comments do not count. Text that is no TOML is left to its parser, which ends where it ceases to be.
+/// Throws InputError that names `file` and the line where a key has more than kDeepestToml dots, or brackets nest deeper.
+/// Strings and comments do not count. Invalid TOML is left to the parser, which stops at the first error.
 void refuse_deep_nesting(std::string_view text, const std::string& file);
 
 }  // namespace strainwave

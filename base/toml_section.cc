@@ -32,7 +32,7 @@ std::string join(const std::vector<std::string>& words, const char* quote) {
   return text;
 }
 
-/// "key = 0,089" in this line, from 1.
+/// Whether this line, counted from 1, has a decimal comma, such as "key = 0,089".
 bool has_decimal_comma(std::string_view text, unsigned line) {
   for (; line > 1 && !text.empty(); --line)
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -46,7 +46,7 @@ bool has_decimal_comma(std::string_view text, unsigned line) {
 
 }  // namespace
 
-/// A file's outermost table, the doubts about what it says, and what is wrong with it.
+/// A file's outermost table, and the warnings and errors about the file.
 struct TomlSection::Document {
   toml::table root;
   std::vector<std::string> warnings;
@@ -61,14 +61,14 @@ struct TomlSection::Table {
   unsigned line() const { return static_cast<unsigned>(table->source().begin.line); }
 };
 
-/// What reads nodes, which the header does not know.
+/// Functions with toml++'s nodes, which the header does not declare.
 struct TomlSection::Reader {
   static const toml::node* find(TomlSection& section, std::string_view key) {
     section.asked_.emplace(key);
     return section.table_->table->get(key);
   }
 
-  /// Null when it is missing, which is noted then.
+  /// Null if the key is missing, which is noted or thrown.
   static const toml::node* require(TomlSection& section, std::string_view key,
                                    const std::string& what = "the key") {
     const toml::node* node = find(section, key);
@@ -76,7 +76,7 @@ struct TomlSection::Reader {
     return node;
   }
 
-  /// What stands in the table and may be the key that is missing; it is no unknown key besides.
+  /// Suggests an unread key of the table for the missing one. refuse_unknown_keys() then accepts the suggested key.
   static std::string instead(TomlSection& section, std::string_view key) {
     std::vector<std::string> others;
     for (const auto& [name, node] : *section.table_->table)
@@ -132,7 +132,7 @@ std::string TomlSection::full_name(std::string_view key) const {
 std::string TomlSection::place(std::string_view key) const {
   const toml::node* node = table_->table->get(key);
   const unsigned line = node != nullptr ? static_cast<unsigned>(node->source().begin.line) : table_->line();
-  // A table that stands nowhere has no line.
+  // An empty table that is not in the file has no line.
   const std::string where = line > 0 ? file_ + ":" + std::to_string(line) : file_;
   return where + ": " + printable(full_name(key)) +
          (node == nullptr ? " is missing" : " = " + value_text(*node));
@@ -141,12 +141,12 @@ std::string TomlSection::place(std::string_view key) const {
 void TomlSection::refuse(std::string_view key, const std::string& allowed) const {
   const std::string error = place(key) + ": " + allowed;
   if (!table_->document->collects) throw InputError(error);
-  // A key may be read twice.
+  // A key may be read twice, but its error is noted once.
   std::vector<std::string>& errors = table_->document->errors;
   if (std::find(errors.begin(), errors.end(), error) == errors.end()) errors.push_back(error);
 }
 
-// What contradicts a value that stands in for another one is no error of the file.
+// After an error, a contradiction may come from the value that replaced an invalid one. It is then not reported.
 void TomlSection::fail(std::string_view key, const std::string& allowed) const {
   if (table_->document->errors.empty()) refuse(key, allowed);
   throw InputError(joined_errors());

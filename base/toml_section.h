@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Strict reading of one TOML table: every key is asked for by name, with its allowed range, and a key that
-// was not read is an error. The only door to toml++. Not real-time.
+// was not read is an error. Only this reader uses toml++. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 namespace strainwave {
 
 /// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
-/// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead. After collect_errors() a
-/// value that cannot be read is noted, and one that is allowed stands for it, so that all errors of a file are reported at once.
+/// line, key, value and what is allowed. For a missing key, the error suggests the nearest unread key. After collect_errors(), the reader
+/// notes an invalid value and returns an allowed one in its place, so that all errors of a file are reported at once.
 class TomlSection {
  public:
   /// The outermost table of `text`; `file` is named in messages.
@@ -37,7 +37,7 @@ class TomlSection {
   std::vector<double> numbers(std::string_view key, Range allowed);
 
   bool has(std::string_view key) const;
-  /// A sub-table that must exist, or an empty one when it does not.
+  /// A sub-table. section() requires it; section_or_empty() returns an empty one if it is missing.
   TomlSection section(std::string_view key);
   TomlSection section_or_empty(std::string_view key);
   /// An array of tables, at least one.
@@ -46,22 +46,22 @@ class TomlSection {
   /// Throws when the table has a key that was never asked for, with the nearest known key as a suggestion.
   void refuse_unknown_keys() const;
 
-  /// From now on, for every table of the file; throw_errors() must follow.
+  /// Collects errors from now on, for every table of the file. throw_errors() must follow.
   void collect_errors();
-  /// Notes what stopped a part of the file, unless that follows from what is noted already.
+  /// Notes an error that stopped the reading of a part of the file, unless an error, the possible cause, is already noted.
   void note_error(const std::string& error);
   /// Throws an InputError with a line for each error, if there are any.
   void throw_errors() const;
 
   /// How messages name `key`: "joint[0].limits.torque_limit_Nm".
   std::string full_name(std::string_view key) const;
-  /// Where `key` of this table stands and what it says: "arm.toml:12: joint[0].inertia_kgm2 = -1".
+  /// Location and value of `key` in this table: "arm.toml:12: joint[0].inertia_kgm2 = -1".
   std::string place(std::string_view key) const;
-  /// An InputError about `key` of this table.
+  /// Throws an InputError about `key` of this table, or with the errors that were noted before.
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;
-  /// Notes a doubt about what `key` says, which is allowed and yet rarely meant.
+  /// Notes a warning about the value of `key`, which is allowed but rarely intended.
   void warn(std::string_view key, const std::string& doubt) const;
-  /// The doubts about any table of the file, in the order in which they were noted.
+  /// The warnings about all tables of the file, in the order in which they were noted.
   const std::vector<std::string>& warnings() const;
 
  private:
@@ -69,7 +69,7 @@ class TomlSection {
   struct Table;  ///< toml++'s table, kept with its document
   struct Reader;
   TomlSection(std::shared_ptr<const Table> table, std::string file, std::string path);
-  /// Throws, or notes it.
+  /// Throws an InputError, or notes it after collect_errors().
   void refuse(std::string_view key, const std::string& allowed) const;
   std::string joined_errors() const;
 

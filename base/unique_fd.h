@@ -11,7 +11,7 @@ namespace strainwave {
 class UniqueFd {
  public:
   UniqueFd() = default;
-  /// Takes what open(2), socket(2) and their like return; < 0: none, and errno stays as it is.
+  /// Takes the result of open(2), socket(2) and similar calls. A negative one means no descriptor, and errno stays unchanged.
   explicit UniqueFd(int fd) noexcept : fd_(fd) {}
   UniqueFd(UniqueFd&& other) noexcept : fd_(std::exchange(other.fd_, kNone)) {}
   UniqueFd& operator=(UniqueFd&& other) noexcept {
@@ -24,9 +24,9 @@ class UniqueFd {
 
   int get() const noexcept { return fd_; }
   explicit operator bool() const noexcept { return fd_ >= 0; }
-  /// Closes what it holds; false where the system says that something of it was lost.
+  /// Closes the descriptor. False if the system reports an error, such as lost data.
   bool close() noexcept { return ::close(std::exchange(fd_, kNone)) == 0; }
-  /// Closes what it holds and takes `fd`.
+  /// Closes the descriptor and takes `fd`.
   void reset(int fd = kNone) noexcept {
     if (fd_ >= 0) ::close(fd_);
     fd_ = fd;

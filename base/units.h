@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conversions between the catalogue's units and ours. Real-time safe.
+// Conversions between the catalogue's units and the project's. Real-time safe.
 //
 // Inside the project every quantity is SI and on the joint (output, low-speed) side of the gear. The
 // manufacturer's catalogue states torques in N.cm and speeds in RPM at the motor (high-speed) side. With

@@ -19,7 +19,7 @@ namespace strainwave {
 
 namespace {
 
-// What CLI11 says of a flag that was given a value.
+// End of CLI11's message about a flag with a value.
 constexpr std::string_view kFlagWithValue = "disallowed flag override";
 
 /// CLI11 would take "--wait=3" for "--wait".
@@ -37,7 +37,7 @@ std::string exit_status_footer() {
   return text;
 }
 
-/// The command that was chosen, down to the innermost.
+/// The innermost subcommand on the command line, or `app` if there is none.
 const CLI::App& innermost(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? app : innermost(*chosen.front());
@@ -62,7 +62,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// Words that nothing took, in the order in which they were typed.
+/// Words that no command or option accepted, in the order in which they were typed.
 std::vector<std::string> left_over(const CLI::App& app, const std::vector<std::string>& words) {
   std::vector<std::string> left = app.remaining(true);
   std::vector<std::string> ordered;
@@ -86,13 +86,13 @@ std::string list(const std::vector<std::string>& words) {
   return text;
 }
 
-/// What is wrong with words that nothing took.
+/// Explains what is wrong with words that no command or option accepted.
 std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
   const std::vector<std::string> commands = command_names(app);
   const bool no_command = app.get_subcommands().empty() && !commands.empty();
   const auto option =
       std::find_if(left.begin(), left.end(), [](const std::string& word) { return word.starts_with("-"); });
-  // Of a command that is none, no option is one either.
+  // After an unknown command, every option is unknown. The message is then about the command.
   if (option != left.end() && !(no_command && option != left.begin())) {
     const std::string name = option->substr(0, option->find('='));
     double value = 0.0;
@@ -111,7 +111,7 @@ std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
   return "unexpected:" + words;
 }
 
-/// The option that CLI11's message begins with, of the command that was chosen; null when it is none.
+/// The option with which CLI11's message begins, looked up in the innermost command; null if there is none.
 const CLI::Option* option_of(const CLI::App& app, const std::string& message) {
   const std::string name = message.substr(0, message.find(':'));
   return innermost(app).get_option_no_throw(name);
@@ -162,7 +162,7 @@ std::string explain_choice(const std::string& message) {
          suggestion(given, allowed);
 }
 
-/// What is allowed where CLI11 could not make a number of `message`'s last word.
+/// Says what is allowed in place of the last word of `message`, which CLI11 could not convert to a number.
 std::string explain_number(const std::string& message) {
   const std::string_view given = std::string_view(message).substr(message.find_last_of(" =") + 1);
   double value = 0.0;
@@ -173,7 +173,7 @@ std::string explain_number(const std::string& message) {
   return value < 0.0 ? "a number from 0 on is allowed" : "a smaller number is allowed";
 }
 
-/// What was given, in one sentence without line ends.
+/// Explains a parse error in one sentence without line feeds.
 std::string explain(const CLI::App& app, const CLI::ParseError& error,
                     const std::vector<std::string>& words) {
   const std::vector<std::string> left = left_over(app, words);
@@ -191,13 +191,13 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
   return text;
 }
 
-/// Nothing: go on. Otherwise help or version was asked for. Throws ProgramError (usage).
+/// Returns a status if help, version or manual was printed, otherwise nothing. Throws ProgramError (usage).
 std::optional<ExitStatus> parse(CLI::App& app, std::vector<std::string> words, std::ostream& out) {
   for (std::string& word : words)
-    if (word.starts_with("-.")) word.insert(1, "0");  // which CLI11 would take for an option
+    if (word.starts_with("-.")) word.insert(1, "0");  // CLI11 would take "-.5" for an option
   refuse_values_of_flags(app);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the last first
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 expects the last word first
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0)

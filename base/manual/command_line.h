@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command lines of all programs have in common: version, manual, exit statuses, and the words of their errors.
+// Common parts of all programs' command lines: version, manual, exit statuses and error messages.
 // Not real-time.
 #pragma once
 
@@ -21,10 +21,10 @@ namespace strainwave {
 /// Gives `app` its name, --version, the hidden --manual, and the exit statuses below its help. `app` must outlive the parse.
 void configure_program(CLI::App& app, const Manual& manual);
 
-/// What a subcommand does. The parser leaves it with the program when the subcommand is given; nothing runs inside the parser.
+/// The action of a subcommand. The parser only hands it to the program, which runs it after the parse.
 using CommandBody = std::function<ExitStatus()>;
 
-/// Why a program ends: its status, the sentence for the user, and what was thrown.
+/// Why a program fails: its exit status, the sentence for the user, and the exception.
 struct ProgramFailure {
   ExitStatus status;
   std::string why;
@@ -32,14 +32,14 @@ struct ProgramFailure {
 };
 using FailureTeller = std::function<void(const ProgramFailure&)>;
 
-/// Parses the words after the program's name ("-.5" counts as "-0.5"): help and version go to `out`, and a ProgramError says what was
-/// given, what is allowed, the nearest right word. Then calls `action`. `tell` is called with what was thrown: a ProgramError has its
-/// status, NotAchieved is kRefused, InputError and a file that cannot be had are kUsage, anything else kNoAnswer.
+/// Parses the command line ("-.5" counts as "-0.5"), then calls `action`. Help and version go to `out`. A wrong command line becomes a
+/// ProgramError with what was given, what is allowed and the nearest valid word. `tell` receives each exception with its status: a
+/// ProgramError has its own, NotAchieved gives kRefused, InputError and filesystem_error give kUsage, and any other gives kNoAnswer.
 ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out,
                        const FailureTeller& tell, const CommandBody& action);
-/// One line "program: why" on `err`, as programs usually tell it.
+/// Writes one line "program: why" to `err`; the usual `tell`.
 void tell_failure(const CLI::App& app, std::ostream& err, const ProgramFailure& failure);
-/// On the standard streams, as what main() returns.
+/// The same with the standard streams. Returns the value for main() to return.
 int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action);
 
 }  // namespace strainwave

@@ -10,14 +10,14 @@ namespace strainwave {
 
 namespace {
 
-/// Text between single quotes of a shell.
+/// `text` in single quotes for a shell.
 std::string quoted(const std::string& text) {
   std::string safe = "'";
   for (const char c : text) safe += c == '\'' ? "'\\''" : std::string(1, c);
   return safe + "'";
 }
 
-/// Without what zsh's descriptions take for syntax.
+/// Escapes the characters that are syntax in zsh's descriptions.
 std::string zsh_text(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -40,7 +40,7 @@ std::vector<std::string> option_words(const CLI::App& app) {
   return all;
 }
 
-/// Of the program and all commands: options behind which a value stands.
+/// All options of the program and its commands that take a value.
 std::string options_with_values(const CLI::App& app) {
   std::string all;
   for (const CLI::Option* option : shown_options(app))
@@ -50,7 +50,7 @@ std::string options_with_values(const CLI::App& app) {
   return all;
 }
 
-/// What may stand for `option`: the words of its own check, "{a,b}", or what the manual says of its name; empty: not known.
+/// Possible values of `option`: the words of its check, "{a,b}", or those that the manual has for its name or type. Empty if unknown.
 std::string offered_values(const CLI::Option& option, const Manual& manual) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{');
@@ -64,7 +64,7 @@ std::string offered_values(const CLI::Option& option, const Manual& manual) {
   return "";
 }
 
-/// Branches of a shell's case over "COMMAND PREVIOUS-WORD": values of options.
+/// Branches of a shell's `case` over "COMMAND PREVIOUS-WORD", which offer the values of options.
 std::string option_branches(const CLI::App& app, const std::string& command, const Manual& manual) {
   std::string text;
   for (const CLI::Option* option : shown_options(app)) {
@@ -82,7 +82,7 @@ std::string option_branches(const CLI::App& app, const std::string& command, con
   return text;
 }
 
-/// Branches over "COMMAND NUMBER-OF-ARGUMENTS-BEFORE": values of arguments.
+/// Branches over "COMMAND NUMBER-OF-ARGUMENTS-BEFORE", which offer the values of arguments.
 std::string argument_branches(const CLI::App& command, const Manual& manual) {
   std::string text;
   int place = 0;
@@ -98,7 +98,7 @@ std::string argument_branches(const CLI::App& command, const Manual& manual) {
   return text;
 }
 
-/// Sets `offered` from `command`, `last` and `place`; bash and zsh read it alike.
+/// Shell code that sets `offered` from `command`, `last` and `place`; valid in bash and in zsh.
 std::string find_values(const CLI::App& app, const Manual& manual) {
   std::string options = option_branches(app, "*", manual);
   std::string arguments;

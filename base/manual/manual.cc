@@ -16,7 +16,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// Text that roff takes literally; behind a comma its line may end, spaces or not.
+/// Escapes `text` for roff. A line may break after a comma, even without a space.
 std::string roff(const std::string& text) {
   std::string safe;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -52,7 +52,7 @@ std::string man_option(const CLI::Option& option) {
   return text.str();
 }
 
-/// "\fIJOINT\fR", "[\fIJOINT\fR ...]": as it is written behind the command.
+/// "\fIJOINT\fR", "[\fIJOINT\fR ...]": as the man page shows it after the command.
 std::string man_positional(const CLI::Option& option) {
   std::string text = "\\fI" + roff(option.get_name(true)) + "\\fR";
   if (option.get_items_expected_max() > 1 && option.get_name(true).front() != '[') text += " ...";
@@ -104,7 +104,7 @@ std::string man_page(const CLI::App& app, const Manual& manual) {
   std::ostringstream text;
   text << ".TH " << upper(manual.program) << " " << manual.section << " \"" << STRAINWAVE_DATE
        << "\" \"strainwave " << STRAINWAVE_VERSION << "\"\n";
-  text << ".ad l\n";  // lists of values leave no room to stretch a line
+  text << ".ad l\n";  // left-aligned: justified lines with long lists of values would have wide gaps
   text << ".SH NAME\n" << roff(manual.program) << " \\- " << roff(app.get_description()) << "\n";
   text << ".SH SYNOPSIS\n\\fB" << roff(manual.program) << "\\fR [\\fIOPTIONS\\fR]";
   if (!commands_of(app).empty()) text << " \\fICOMMAND\\fR [\\fIARGUMENTS\\fR]";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Man pages and shell completion of a program, from the command line that it defines and what it says of itself: one source, so that
-// they cannot drift. Not real-time.
+// Generates the man page and the shell completion of a program from its command line and its `Manual`, so that they always agree.
+// Not real-time.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ class App;
 
 namespace strainwave {
 
-/// What the command line does not say. Each is a list of what it is about, and a sentence without a full stop.
+/// Contents of a man page that the command line lacks. Each entry is a subject and a sentence without a full stop.
 struct Manual {
   using Entries = std::vector<std::pair<std::string, std::string>>;
 
@@ -22,14 +22,14 @@ struct Manual {
   Entries files = {};
   Entries examples = {};  ///< command, what it does
   std::vector<std::string> see_also = {};
-  /// What the shells offer for values of this name ("JOINT"): words, or "$(command)" that prints them.
+  /// Completions of values with this name ("JOINT"): words, or "$(command)" that prints them.
   Entries values = {};
 };
 
 /// Numbers and meanings of the exit statuses, which all programs share.
 const Manual::Entries& exit_statuses();
 
-/// The page (roff), the completion of bash, that of zsh.
+/// The man page (roff), the completion of bash and that of zsh.
 std::string man_page(const CLI::App& app, const Manual& manual);
 std::string bash_completion(const CLI::App& app, const Manual& manual);
 std::string zsh_completion(const CLI::App& app, const Manual& manual);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a command line its users see. Not real-time.
+// The parts of a command line that users see. Not real-time.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class Option;
 
 namespace strainwave {
 
-/// Options and commands that are shown: not the hidden ones.
+/// Options and commands without the hidden ones.
 std::vector<const CLI::Option*> shown_options(const CLI::App& app);
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
