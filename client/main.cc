@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwavectl: the operator's program.
+// strainwavectl: the command-line program for operators.
 #include <unistd.h>
 
 #include <iostream>

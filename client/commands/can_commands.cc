@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// can-scan: who is on a CAN bus, without a running daemon.
+// can-scan: lists the nodes on a CAN bus, without a running daemon.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -37,7 +37,7 @@ void can_scan(const Output& output, const std::string& interface_name) {
   if (output.json) {
     nlohmann::ordered_json found{{"interface", interface_name}, {"nodes", nlohmann::ordered_json::array()}};
     for (const ScannedNode& node : nodes) found["nodes"].push_back(json_of(node));
-    // Identities come from devices.
+    // Identities come from devices and may hold invalid UTF-8, which dump() replaces.
     output.stream << found.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
     return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gpio-check and can-check: what the daemon itself says of the lines and drives of a configuration, which it need not run for.
+// gpio-check and can-check: strainwaved checks the lines and drives of a configuration. No daemon has to run.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -12,7 +12,7 @@ namespace strainwave {
 
 namespace {
 
-/// Runs the daemon with `arguments`. It prints for people itself; for scripts its lines become one object.
+/// Runs the daemon with `arguments`. Its text goes to the terminal. For JSON output, its lines become one object.
 void check(const Output& output, const std::filesystem::path& config,
            const std::vector<std::string>& arguments, const std::string& failure) {
   std::string printed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// commission: strainwaved measures, strainwave-design designs, and what they found becomes a configuration and a report.
+// commission: strainwaved measures and strainwave-design designs. The results become a configuration and a report.
 #include <fmt/format.h>
 
 #include <optional>
@@ -19,7 +19,7 @@ namespace strainwave {
 namespace {
 
 constexpr int kCurvePoints = 60;
-constexpr double kCurveReach = 1.1;  // of the fastest speed that was measured
+constexpr double kCurveReach = 1.1;  // multiple of the fastest measured speed
 
 std::string command_line(const std::string& program, const std::vector<std::string>& arguments) {
   std::string line = program;
@@ -27,7 +27,7 @@ std::string command_line(const std::string& program, const std::vector<std::stri
   return line;
 }
 
-/// Steps of one commissioning, each of which may end it.
+/// The steps of one commissioning. Each step may end it.
 class CommissionRun {
  public:
   CommissionRun(const Output& output, const CommissionArguments& arguments)
@@ -64,14 +64,14 @@ class CommissionRun {
         joint_.prefix == ClientOptions().prefix ? "" : "--prefix " + shell_word(joint_.prefix) + " ");
   }
 
-  /// What to type after a step failed: measuring goes on with the whole of it.
+  /// The command to type after a failed step. After a failed measurement it is the whole commission command, which continues measuring.
   std::string repeated(const std::string& program, const std::vector<std::string>& arguments) const {
     if (arguments.front() != "--commission") return command_line(program, arguments);
     return command_line("strainwavectl", {"commission", arguments_.joint, "--config",
                                           arguments_.config.string(), "--out", arguments_.out.string()});
   }
 
-  /// Returns what it printed, which goes to the output, too.
+  /// Returns the printed text, if captured. Without JSON, the text also goes to the output.
   std::string run_program(const std::string& step, const std::string& program,
                           const std::vector<std::string>& arguments, bool captured = false) {
     if (!output_.json) output_.stream << "-- " << step << '\n';
@@ -93,14 +93,14 @@ class CommissionRun {
     return printed;
   }
 
-  /// Whether `path` is to be made; says that it is kept where it is not.
+  /// Returns whether `path` has to be made. If it exists, prints that it is kept.
   bool is_missing(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return true;
     if (!output_.json) output_.stream << path.string() << ": kept; delete it to have it made again\n";
     return false;
   }
 
-  /// A design of another joint, or of an older measurement, is never taken for this one's.
+  /// Refuses a folder that holds the design of another joint, or of an older measurement.
   void require_own_folder() const {
     const std::optional<CommissionRecord> before = read_commission_record(arguments_.out);
     const auto refuse = [&](const std::filesystem::path& path, const std::string& what) {
@@ -127,7 +127,7 @@ class CommissionRun {
                   {"--commission", arguments_.joint, "--config", arguments_.config.string(), "--out",
                    arguments_.out.string()});
     } catch (const ClientError&) {
-      // What was found explains what stopped it.
+      // The report of the measured values explains the failure.
       record_ = read_commission_record(arguments_.out);
       if (record_) write_report();
       throw;
@@ -162,7 +162,7 @@ class CommissionRun {
                                   arguments_.config.string()));
   }
 
-  /// Friction of the table over speed, where the record has it.
+  /// Friction of the table over speed, if the record and the table exist. Empty otherwise.
   std::vector<FrictionAtSpeed> table_friction() const {
     if (record_->friction.empty() || !std::filesystem::exists(file("table.json"))) return {};
     const FuzzyFriction friction = read_gain_table(file("table.json")).friction;

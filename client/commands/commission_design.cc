@@ -23,7 +23,7 @@ constexpr double kDampingShare = 1.0 / 3.0;
 constexpr double kNextPeriod = 0.25;
 static_assert(kMostDelay_periods == kMaxBoxDelay + kNextPeriod);
 constexpr double kFirstMotion_rad = 0.1;
-// As a number is in the configuration and in the table: digits that mean something.
+// Significant digits of a number in the configuration and in the table.
 constexpr int kDigits = 5;
 
 constexpr std::string_view kDelay = "delay_periods";
@@ -38,7 +38,7 @@ bool is_delay(const CommissionValue& value) {
   return value.key.ends_with(kDelay);
 }
 
-/// In whole periods.
+/// The delay in whole periods, as a range.
 std::string delay_range(const CommissionValue& delay) {
   return fmt::format("{}..{}", delay.used,
                      std::max(delay.used, std::ceil(delay.measured.value - kNextPeriod)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// doctor: a test motion or a recording into evidence, and what doctor/ makes of it in words.
+// doctor: turns a test motion or a recording into evidence, and prints the diagnosis of doctor/ in words.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ Evidence begun(const DoctorArguments& arguments, const std::string& joint) {
   return evidence;
 }
 
-/// What is heard of a joint, as it comes.
+/// Adds the received messages of a joint to the evidence.
 class Listening {
  public:
   Listening(Client& client, const std::string& joint, Evidence& evidence)
@@ -114,7 +114,7 @@ std::string to_json(const std::string& joint, const Diagnosis& diagnosis, const 
   return json.dump() + "\n";
 }
 
-/// Says what is found, and throws when that is anything.
+/// Prints the findings, and throws if there is any.
 void report(const Output& output, const std::string& joint, const Evidence& evidence) {
   if (evidence.samples.size() < 2)
     throw ClientError(ExitStatus::kUsage, fmt::format("{}: fewer than two states are no evidence", joint));
@@ -178,7 +178,7 @@ void examine_joint(Client& client, const Output& output, const DoctorArguments& 
     client.wait_until([&] { return evidence.timings.size() >= 2; }, Deadline(client.options().timeout_s));
   } catch (const ClientError& error) {
     if (error.status() == ExitStatus::kInterrupted || error.status() == ExitStatus::kNoAnswer) throw;
-    // What ended the test is evidence, too. Without a finding it is the answer: a test that did not run says nothing of health.
+    // The failure that ended the test is evidence, too. Without a finding it is thrown again: an unfinished test does not prove health.
     if (!output.json) output.stream << fmt::format("the test ended early: {}\n", error.what());
     client.wait_until([] { return false; }, Deadline(0.3));
     ended = std::current_exception();

@@ -11,16 +11,16 @@
 
 namespace strainwave {
 
-/// `joints`, or when there are none every joint that is heard of the prefix. Throws NoAnswer when none is.
+/// Returns `joints`, or if empty every joint heard of the prefix. Throws NoAnswer when no joint is heard.
 std::vector<std::string> joints_or_all(Client& client, const std::vector<std::string>& joints);
 
-/// What went wrong with some of several joints, reported as one error.
+/// The failures of an order to several joints, reported as one error.
 class Failures {
  public:
-  /// Whether `step`, an order to `joint`, ended without a ClientError. An interruption ends everything: it is thrown on, behind what had
-  /// failed.
+  /// Runs `step`, an order to `joint`, and returns whether it ended without a ClientError. An interruption
+  /// ends everything: it is thrown at once, listed after the earlier failures.
   bool attempt(const std::string& joint, const std::function<void()>& step);
-  /// Throws what has failed, of several joints a line for each, with the status of the worst: no answer before a refusal.
+  /// Throws the failures, if any: a line for each joint, with the largest exit status: kNoAnswer outranks kRefused.
   void rethrow() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// export: an LCM event log into CSV. Needs neither LCM nor a daemon.
+// export: converts an LCM event log to CSV or MCAP. Needs neither LCM nor a daemon.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,10 +36,10 @@ void require_complete(std::ofstream& file, const std::filesystem::path& path) {
                       path.string() + " is incomplete: writing failed; is the disk full?");
 }
 
-/// What has to be known of a log before its first line is written.
+/// Facts about a log that the export needs before it writes the first line.
 struct LogSpan {
-  std::int64_t first_us = 0;  ///< when its first message was received
-  int weights = 0;            ///< that its states use, at most
+  std::int64_t first_us = 0;  ///< time of receipt of its first message
+  int weights = 0;            ///< largest number of weights in its states
 };
 
 LogSpan span_of(const std::filesystem::path& log) {
@@ -92,7 +92,7 @@ class StateExport {
   std::map<std::string, long> counts_;
 };
 
-/// One file per channel: when the message was received, then its fields.
+/// One file per channel: the time of receipt of a message, then its fields.
 class ChannelExport {
  public:
   ChannelExport(const std::filesystem::path& folder, bool overwrite, const LogSpan& span)
@@ -130,7 +130,7 @@ class ChannelExport {
     if (!message) return false;
     auto found = files_.find(event.channel);
     if (found == files_.end()) {
-      // parse_channel() has seen to it that the name is a plain file name.
+      // parse_channel() has checked that the name is a plain file name.
       const std::filesystem::path path = folder_ / (event.channel + ".csv");
       found = files_.emplace(event.channel, File{path, create(path, overwrite_)}).first;
       found->second.stream << "received_us,time_s" << columns<Message>() << '\n';
@@ -162,7 +162,7 @@ class ChannelExport {
   std::map<std::string, File> files_;
 };
 
-/// Every message of ours in one MCAP file.
+/// All messages of Strainwave in one MCAP file.
 class McapExport {
  public:
   McapExport(const std::filesystem::path& path, bool overwrite)
@@ -185,7 +185,7 @@ class McapExport {
   McapLog log_;
 };
 
-/// Times of receipt that are before those of the message in front of them.
+/// Counts messages with an earlier time of receipt than the message before.
 class FallingTimes {
  public:
   void take(const LogEvent& event) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// friction: what a joint has learned of its friction, and orders about it.
+// friction: shows the learned friction of a joint, and gives orders about learning.
 #include <fmt/format.h>
 
 #include <algorithm>

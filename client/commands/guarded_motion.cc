@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLongestSilence_s = 0.5;
 
-/// What became of the attempt to hold, in words.
+/// Tries to hold the joint, and returns the outcome in words.
 std::string hold_joint(Client& client, const std::string& joint) {
   try {
     command_v1 order{};
@@ -72,7 +72,7 @@ void GuardedJoint::check_yield() const {
     throw yielded(joint_, "did not " + purpose_, view_);
 }
 
-// A refusal may be here before the state that says why.
+// The refusal may arrive before the state that explains it.
 void GuardedJoint::wait_for_news() {
   const std::int64_t seen = view_.messages;
   client_.wait_until([&] { return view_.messages > seen + 1; }, Deadline(kOldStates_s));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion that a program orders setpoint by setpoint: whatever ends it before its time ends in a hold. Not real-time.
+// Guards a motion that a program orders setpoint by setpoint: if it ends early, the joint holds. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace strainwave {
 
-/// Runs `motion`. When it throws (also because of Ctrl-C), a hold is sent to the joint, and the error says
-/// whether it arrived.
+/// Runs `motion`. When it throws (also because of Ctrl-C), the function sends a hold to the joint. The error
+/// then tells whether the hold arrived.
 void run_guarded(Client& client, const std::string& joint, const std::function<void()>& motion);
 
 /// A joint that a program moves, setpoint by setpoint.
 class GuardedJoint {
  public:
-  /// `purpose`: of the motion, in words, after "did not".
+  /// `purpose` names the motion in error messages, after "did not".
   GuardedJoint(Client& client, const std::string& joint, std::string purpose);
 
-  /// A setpoint was accepted: what states tell of a load from now on, old ones aside, is this motion's.
+  /// Notes an accepted setpoint. After kOldStates_s, a reported yield to a load belongs to this motion.
   void accepted() { old_states_ = Deadline(kOldStates_s); }
 
-  /// Throws ClientError unless the daemon is the same, with a state within the last half second. The joint must be enabled,
-  /// without a fault and not yielding to a load, and no order of this client refused.
+  /// Throws ClientError unless the same daemon still runs and its last state is at most half a second old. The
+  /// joint must be enabled, without a fault and not yielding to a load. No order of this client may be refused.
   void require_undisturbed();
 
  private:
@@ -39,7 +39,7 @@ class GuardedJoint {
   std::string purpose_;
   const JointView& view_;
   std::int64_t session_id_;
-  std::optional<Deadline> old_states_;  ///< nothing: no setpoint was accepted yet
+  std::optional<Deadline> old_states_;  ///< no value: no setpoint was accepted yet
 };
 
 }  // namespace strainwave

@@ -13,12 +13,12 @@ namespace strainwave {
 
 namespace {
 
-// The stream ends by itself this soon after the program does.
+// The stream ends by itself this long after this program ends.
 constexpr double kValidFor_s = 0.5;
 constexpr double kRenewEvery_s = 0.1;
-// Beyond the time that a leg should take.
+// Tolerated time beyond the expected duration of a leg.
 constexpr double kPatience_s = 5.0;
-// A joint that rests a few counts off may stay there.
+// The setpoint counts as arrived within this distance of the target.
 constexpr double kArrived_rad = 1e-3;
 
 }  // namespace
@@ -59,7 +59,7 @@ void GuardedStrokes::go(double target_rad, double speed_rad_s) {
   }
 }
 
-// A stream begins with a setpoint that is answered, so that it cannot be lost.
+// A stream begins with an acknowledged setpoint, so that its loss is noticed.
 void GuardedStrokes::begin(setpoint_v1 setpoint) {
   setpoint.begins_stream = 1;
   setpoint.approach = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strokes of a joint that a program watches: each is a stream of setpoints, which ends by itself soon after the program does. Not
-// real-time.
+// Strokes of a joint under the supervision of a program. Each is a stream of setpoints, which ends by itself
+// soon after the program does. Not real-time.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ class GuardedStrokes {
         max_torque_Nm_(max_torque_Nm),
         guarded_(client, joint, "end its motion") {}
 
-  /// Returns once the joint's setpoint stands at `target_rad`. Throws ClientError when it is late, disturbed, or needs more torque.
+  /// Returns once the joint's setpoint rests at `target_rad`. Throws ClientError when it is late, disturbed, or needs more torque than allowed.
   void go(double target_rad, double speed_rad_s);
-  /// Waits as watchfully.
+  /// Waits with the same supervision.
   void rest(double duration_s);
 
  private:

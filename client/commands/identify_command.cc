@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// identify: steady speeds in both directions, recorded.
+// identify: moves at steady speeds in both directions and records them.
 #include <fmt/format.h>
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace strainwave {
 
 namespace {
 
-/// All sweeps of `plan`; `report` is called after each.
+/// Runs all sweeps of `plan` and calls `report` after each.
 void run_sweeps(Client& client, const std::string& joint, const IdentifyPlan& plan,
                 const std::function<void(const Sweep&)>& report) {
   GuardedStrokes strokes(client, joint, plan.max_torque_Nm);
@@ -38,7 +38,7 @@ void require_ready(const JointView& view, const std::string& joint) {
                                   joint, to_text(status)));
 }
 
-/// The log should begin with the limits, which the fit needs: they come once a second.
+/// The log should begin with the limits, which the fit needs. The daemon publishes them once a second.
 void wait_for_limits_in(Client& client, const EventLogWriter& log, const std::string& joint) {
   const std::string name = channel(client.options().prefix, joint, channel_kind::kLimits);
   client.wait_until([&] { return log.counts().contains(name); }, Deadline(client.options().timeout_s));

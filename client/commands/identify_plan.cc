@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kDefaultReach_rad = 1.0;
 constexpr double kDefaultShareOfSpeed = 0.8;
-constexpr double kApproachShare = 0.5;  // of the fastest speed
+constexpr double kApproachShare = 0.5;  // share of the fastest speed
 
 [[noreturn]] void refuse(const std::string& what) {
   throw ClientError(ExitStatus::kUsage, "identify: " + what);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// inject: an artificial fault in a simulated drive, to see what the daemon makes of it. The daemon refuses it
-// for any other drive.
+// inject: injects an artificial fault into a simulated drive, to test the reaction of the daemon. The daemon
+// refuses it for any other drive.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// keygen: a new key pair. Needs neither daemon nor LCM.
+// keygen: makes a new key pair. Needs neither daemon nor LCM.
 #include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-/// "user@host", as ssh-keygen has it.
+/// "user@host", as ssh-keygen writes it.
 std::string default_comment() {
   std::array<char, 256> host{};
   const bool named = ::gethostname(host.data(), host.size() - 1) == 0;

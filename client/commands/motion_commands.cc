@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// move, home: an order whose motion is waited for.
+// move, home: orders whose motion the client can wait for.
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"
@@ -11,7 +11,7 @@ namespace strainwave {
 
 namespace {
 
-/// `wait`, of which Ctrl-C ends only the waiting. `goes_on`: what the joint does then, in words.
+/// Runs `wait`. Ctrl-C ends the waiting, not the motion. `goes_on` says in words how the joint moves on.
 template <typename Wait>
 auto interruptible(const std::string& joint, const std::string& goes_on, const Wait& wait) {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// enable, clear-fault, take-over, release, revert-table: an order, and what came of it in words.
+// enable, clear-fault, take-over, release, revert-table: gives an order and prints its outcome.
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"

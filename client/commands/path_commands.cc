@@ -20,13 +20,13 @@ namespace strainwave {
 
 namespace {
 
-// Of what a joint may do, for a motion that nobody wants to be the fastest: friction and load take their torque besides.
+// Share of the joint's possible acceleration. The rest of the torque is for friction and load.
 constexpr double kShareOfAcceleration = 0.8;
 
-// One joint's move and that of several end at the same speed.
+// A move of one joint and a move of several joints have the same longest duration.
 static_assert(kLongestMove_s == kLongestPath_s);
 
-/// Returns once all joints are where the path ends: the last one's time, and the largest error.
+/// Returns once all joints are at the end of the path: the duration of the last one, and the largest error.
 Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, const PathWait& wait) {
   try {
     Arrival all;
@@ -87,7 +87,7 @@ void require_allowed_speed(const std::string& joint, double speed_limit_rad_s, c
       joint);
 }
 
-/// The daemon would name a knot, of a path that nobody has made himself.
+/// Refuses here a path that takes too long. The daemon would name a knot, which the user has not written.
 void require_quick_enough(const std::vector<StraightMove>& moves, const std::vector<JointPath>& path) {
   const double duration_s = path_duration_s(path);
   if (duration_s <= kLongestPath_s) return;
@@ -96,7 +96,7 @@ void require_quick_enough(const std::vector<StraightMove>& moves, const std::vec
         return std::abs(one.to_rad - one.from_rad) / one.speed_rad_s <
                std::abs(other.to_rad - other.from_rad) / other.speed_rad_s;
       });
-  // A hundredth more, for the ramps and what printing rounds off.
+  // One percent more, for the ramps and for rounding in the message.
   constexpr double kMargin = 1.01;
   const double least_rad_s = kMargin * std::abs(slowest.to_rad - slowest.from_rad) / kLongestPath_s;
   throw InvalidInput(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// play: the setpoints of a log as new orders.
+// play: sends the setpoints of a log as new orders.
 #include <fmt/format.h>
 
 #include <strainwave/setpoint_v1.hpp>
@@ -17,7 +17,7 @@ namespace strainwave {
 namespace {
 
 struct TimedSetpoint {
-  double at_s = 0.0;  ///< since the first one
+  double at_s = 0.0;  ///< time since the first setpoint
   setpoint_v1 setpoint{};
 };
 
@@ -31,7 +31,7 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
     const auto setpoint = decode_exactly<setpoint_v1>(event.data);
     if (!setpoint) continue;
     if (setpoints.empty()) first_us = event.received_us;
-    // A clock that was set back while recording must not turn the order round.
+    // If the clock was set back during recording, the setpoints keep their order.
     const double at_s = std::max(static_cast<double>(event.received_us - first_us) * 1e-6,
                                  setpoints.empty() ? 0.0 : setpoints.back().at_s);
     setpoints.push_back({at_s, *setpoint});
@@ -43,8 +43,8 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
   return setpoints;
 }
 
-/// Only what was wanted is taken over; who, when and for whom, the sender says anew. The cycle that a sample was for belongs to
-/// the session that it was recorded in.
+/// Takes over only the wanted motion. The sender sets identity, time and session anew. The cycle of a sample
+/// belongs to the recorded session, so it is left out.
 setpoint_v1 order_of(const setpoint_v1& recorded) {
   setpoint_v1 order{};
   order.position_rad = recorded.position_rad;
@@ -58,7 +58,7 @@ setpoint_v1 order_of(const setpoint_v1& recorded) {
   return order;
 }
 
-/// The first, and every one that begins a stream, must not get lost.
+/// The first setpoint, and each that begins a stream, must not get lost. Its answer is required.
 void require_order(Client& client, const std::string& joint, setpoint_v1 order) {
   order.acknowledge = 1;
   order.begins_stream = order.stream_id != 0 ? 1 : 0;
@@ -92,7 +92,7 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
     }
     last = &next;
   }
-  // The last refusal, if there is one, is on its way.
+  // Waits for a refusal of the last setpoint, which may still be on its way.
   client.wait_until([] { return false; }, Deadline(0.1));
   guarded.require_undisturbed();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// plot-record: a flight record as a picture, by gnuplot. Needs neither daemon nor LCM.
+// plot-record: draws a flight record with gnuplot. Needs neither daemon nor LCM.
 #include <fmt/format.h>
 
 #include "base/gnuplot.h"

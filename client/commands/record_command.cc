@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// record: every message of a prefix to an LCM event log or an MCAP file.
+// record: writes every message of a prefix to an LCM event log or an MCAP file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-/// What is heard, into an MCAP file as it comes.
+/// Writes received messages to an MCAP file.
 class McapRecording {
  public:
   McapRecording(Client& client, const RecordArguments& arguments)
@@ -35,13 +35,13 @@ class McapRecording {
       ++counts_[message.channel];
   }
 
-  UniqueFd claim_;  ///< of the file, before it is opened and emptied
+  UniqueFd claim_;  ///< claim on the file, before it is opened and emptied
   McapLog log_;
   std::map<std::string, long> counts_;
   Subscription subscription_;
 };
 
-/// Who sends what is recorded, and what of that did not come.
+/// Tracks the senders of the recorded messages, and counts their missing messages.
 class Senders {
  public:
   Senders(Connection& connection, const std::string& channels)
@@ -54,7 +54,7 @@ class Senders {
     for (const LcmSource& source : sources_) sum += connection_.missing(source);
     return sum;
   }
-  /// Why, and what to do about it.
+  /// The likely reason for missing messages, and its remedy.
   std::string remedy() const {
     if (const std::uint64_t without_room = connection_.without_room(); without_room > 0)
       return fmt::format(
@@ -81,7 +81,7 @@ class Senders {
   Subscription subscription_;
 };
 
-/// Waits until the recording is over; an interrupt is a normal end.
+/// Waits for the end of the recording. An interrupt is a normal end.
 template <typename Log>
 void wait_for_end(Client& client, const Log& log, const Deadline& end) {
   try {

@@ -22,10 +22,10 @@ namespace strainwave {
 
 namespace {
 
-// A signal may come just before a wait begins, which it then does not end: the wait looks for it so often.
+// A signal just before a wait does not end that wait. So each wait lasts at most this long.
 constexpr int kLook_ms = 50;
 
-/// What a child writes to its standard output and standard error, if somebody wants to have it.
+/// Captures the standard output and standard error of a child, if requested.
 class Capture {
  public:
   explicit Capture(std::string* into) : into_(into) {
@@ -44,9 +44,9 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 
   const posix_spawn_file_actions_t* actions() const noexcept { return &actions_; }
-  /// The child has its end; with both ends open here, the pipe would never end.
+  /// Closes the write end after the child has its copy. Otherwise the pipe would never reach its end.
   void close_write_end() { write_end_.reset(); }
-  /// Waits for a while, and takes what has come. Also after the child's end, until nothing is left.
+  /// Waits for a while and appends the new output. Call it also after the child's end, until the pipe closes.
   void read_some() {
     pollfd readable{read_end_.get(), POLLIN, 0};
     if (::poll(&readable, 1, kLook_ms) <= 0 || !read_end_) return;
@@ -89,7 +89,7 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
   bool passed_on = false;
   for (bool ended = false; !ended || capture.open();) {
     capture.read_some();
-    // Ctrl-C reaches both; a signal to this program alone does not.
+    // Ctrl-C reaches both programs. A signal to this program alone must be passed on.
     if (interrupted() && !ended && !passed_on) passed_on = ::kill(child, SIGTERM) == 0;
     if (ended) continue;
     const pid_t waited = ::waitpid(child, &status, WNOHANG);

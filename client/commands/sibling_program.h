@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a program of ours that is installed beside this one. Not real-time.
+// Runs a Strainwave program that is installed beside this one. Not real-time.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace strainwave {
 
-/// Runs `name` with `arguments` and returns its exit status, 128 + n after signal n. What it prints goes where ours goes, or all of it
-/// into `printed`. An interrupt of this program ends it, too, also one that came before: then nothing is run, and 128 + SIGTERM is returned.
-/// Throws ClientError (file) when it is not there.
+/// Runs `name` with `arguments` and returns its exit status, or 128 + n after signal n. Its output goes to the output
+/// of this program, or into `printed`. An interrupt of this program also ends the child. If it came before the start,
+/// nothing is run and 128 + SIGTERM is returned. Throws ClientError (usage) when the program cannot be run.
 int run_sibling(const std::string& name, const std::vector<std::string>& arguments,
                 std::string* printed = nullptr);
 

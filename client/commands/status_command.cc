@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// status: what every joint does now.
+// status: shows the present state of every joint.
 #include "client/commands/commands.h"
 #include "client/text/state_json.h"
 #include "client/text/text.h"

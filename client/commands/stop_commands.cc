@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// disable, hold: stops.
+// disable, hold: stop joints.
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
 #include "client/protocol/orders.h"
@@ -13,7 +13,7 @@ void say_disabled(const Output& output, const std::string& joint) {
   say(output, joint + ": disabled", {{"joint", joint}, {"mode", "off"}});
 }
 
-// A stop is for a joint by its name, and who hears no joint knows none. One that is named is sent to, heard or not.
+// A stop needs the name of a joint. Without names it goes to the joints heard. A named joint gets it even if unheard.
 std::vector<std::string> joints_to_stop(Client& client, const std::vector<std::string>& joints) {
   try {
     return joints_or_all(client, joints);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// load-table: a gain table from its file to the daemon. The file is checked here for its form; whether the
-// table suits the joint and is certified for it, the daemon decides.
+// load-table: sends a gain table from its file to the daemon. The client checks the form of the file. The
+// daemon decides whether the table suits the joint and is certified for it.
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"

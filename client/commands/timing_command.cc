@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// timing: the daemon's own account of its loop.
+// timing: shows the timing of the daemon's loop, as the daemon reports it.
 #include <fmt/format.h>
 
 #include <map>
@@ -74,7 +74,7 @@ void show_timing(Client& client, const Output& output) {
   }
   const timing_v1& timing = timings.find(prefix)->message;
   std::string text = describe(timing);
-  text.pop_back();  // the last line's end, which is written for every result
+  text.pop_back();  // removes the last newline, because say() adds one
   say(output, text, fields_of(timing));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// watch: joints over time, as a full screen or as lines.
+// watch: shows joints over time, as a full screen or as lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<JointName> chosen(const Client& client, const std::vector<std::strin
   return names;
 }
 
-/// Waits one interval. False: interrupted, which is how a watch normally ends.
+/// Waits one interval. Returns false when interrupted, which is the normal end of a watch.
 bool wait_interval(Client& client, const Deadline& interval) {
   try {
     client.wait_until([] { return false; }, interval);

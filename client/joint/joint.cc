@@ -19,7 +19,7 @@ MoveOrder checked(const std::string& joint, const MoveOrder& order) {
   return order;
 }
 
-/// Gets every state as long as it lives.
+/// Collects every state during its lifetime.
 class OpenInbox {
  public:
   explicit OpenInbox(JointLink& link) : link_(link) { link_.open(states_); }
@@ -27,11 +27,11 @@ class OpenInbox {
   OpenInbox(const OpenInbox&) = delete;
   OpenInbox& operator=(const OpenInbox&) = delete;
 
-  /// The next one. Throws NoAnswer.
+  /// Returns the next state. Throws NoAnswer.
   State take() {
     Client& client = link_.client();
     if (!client.wait_until([&] { return !states_.empty(); }, Deadline(client.options().timeout_s))) {
-      client.wait_for_joint(link_.name());  // says more when there never was one
+      client.wait_for_joint(link_.name());  // its error is more specific if no state ever came
       throw NoAnswer(link_.silence("lost contact with strainwaved"), link_.name());
     }
     const State next = states_.front();

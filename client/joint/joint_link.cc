@@ -31,7 +31,7 @@ std::string url_of(const JointOptions& options) {
   return url.empty() ? std::string(kUsualLcmUrl) : url;
 }
 
-/// The key's file, which can be read; empty: none.
+/// The file of the key, after a check that it is readable. Empty: no key.
 std::filesystem::path key_of(const JointOptions& options) {
   std::string file = options.key ? options.key->string() : environment("STRAINWAVE_KEY");
   if (file.starts_with("~/")) file = environment("HOME") + file.substr(1);
@@ -130,7 +130,7 @@ void JointLink::listen(const std::stop_token& end) {
     try {
       client_.catch_up();
     } catch (const ClientError&) {
-      // Whoever calls next is told.
+      // The next call of the user reports the error.
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Joint and its Streams share: one connection, the joint's messages on it, and a thread that receives them. The thread works while the
-// program does something else, so that no message waits in the system's queue. Not real-time.
+// Shared by Joint and its Streams: one connection, the joint's messages, and a thread that receives them. The
+// thread works in the background, so that no message waits in the system's queue. Not real-time.
 #pragma once
 
 #include <deque>
@@ -20,7 +20,7 @@ namespace strainwave {
 
 class JointLink {
  public:
-  /// States that wait for a caller of states(); the oldest are lost when the caller is too slow.
+  /// Largest number of states that wait for a caller of states(). If the caller is too slow, the oldest are lost.
   static constexpr std::size_t kInbox = 4096;
   using Inbox = std::deque<State>;
 
@@ -29,17 +29,17 @@ class JointLink {
 
   const std::string& name() const noexcept { return name_; }
 
-  /// To be held while anything below is used.
+  /// Hold this lock during the use of any member below.
   std::unique_lock<std::recursive_mutex> lock() { return std::unique_lock(mutex_); }
 
   Client& client() noexcept { return client_; }
   const Connection& connection() const noexcept { return connection_; }
-  /// The latest, with what came by now; waits for the first. Throws NoAnswer when there is none that is new enough.
+  /// The latest received state; waits for the first. Throws NoAnswer when there is none, or when it is too old.
   const JointView& view();
   const limits_v1& limits();
-  /// "elbow: lost contact with strainwaved: no state for 3.2 s"; `what`: the words before the time.
+  /// "elbow: lost contact with strainwaved: no state for 3.2 s". `what` is the part between the name and the time.
   std::string silence(const std::string& what) const;
-  /// The cycle that the daemon is in by now, see CycleClock; a state must have come.
+  /// The present cycle of the daemon, see CycleClock. At least one state must have been received.
   double cycle_now(double period_s) const { return clock_.cycle_at(now(), period_s); }
 
   void open(Inbox& inbox) { inboxes_.push_back(&inbox); }
@@ -58,15 +58,15 @@ class JointLink {
   std::vector<Inbox*> inboxes_;
   Subscription states_;
   std::recursive_mutex mutex_;
-  std::jthread listener_;  ///< the last, so that it ends first
+  std::jthread listener_;  ///< the last member, so that its thread ends first
 };
 
-/// Throws InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles. `who_are`: "the joints of a path
-/// are".
+/// Throws InvalidInput unless both joints belong to the same daemon, because each daemon counts its own
+/// cycles. `who_are`: "the joints of a path are".
 void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are);
 
-/// `value`, if it is finite and `is_allowed`. `joint`: whose it is; `key`: of the daemon's configuration that says what is allowed, if one
-/// does. Throws InvalidInput.
+/// Returns `value` if it is finite and `is_allowed`; otherwise throws InvalidInput. `joint` is the joint it
+/// belongs to. `key`, if given, is the configuration key of the daemon that sets the limit.
 double checked_number(const std::string& joint, const std::string& name, double value,
                       const std::string& allowed, bool is_allowed = true, const std::string& key = "");
 

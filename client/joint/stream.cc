@@ -16,8 +16,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kFarthestAhead_s = 0.9;  // the daemon takes a second; the way there takes some of it
-constexpr double kFarthestTime_s = 1e12;  // its cycle fits into a message
+constexpr double kFarthestAhead_s = 0.9;  // the daemon allows 1 s; the transmission takes part of it
+constexpr double kFarthestTime_s = 1e12;  // a cycle of this time fits into a message
 constexpr double kLongestStep_s = 0.5;    // without samples a joint comes to rest after 0.2 s
 constexpr auto kAnotherOne = "this stream is over; Joint::stream() makes another one";
 std::string over_after(long late, long outdated) {
@@ -41,7 +41,7 @@ StreamOptions checked(const std::string& joint, StreamOptions options) {
                  options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValidFor_s);
   checked_number(joint, "speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
                  options.speed_limit_rad_s >= 0.0);
-  options.beside = nullptr;  // it may end before this one
+  options.beside = nullptr;  // that stream may end before this one
   return options;
 }
 
@@ -57,7 +57,7 @@ std::int64_t new_stream(JointLink& link) {
 
 }  // namespace
 
-/// Which cycle of the daemon the time t of a stream is; joints that move together share one.
+/// Relates the time t of a stream to the daemon's cycles. Joints that move together share it.
 struct Stream::TimeBase {
   std::optional<double> origin_t_s;
   std::int64_t origin_cycle = 0;
@@ -88,7 +88,7 @@ Stream::~Stream() {
   if (link_ && last_cycle_) end();
 }
 
-// After an exception the joint shall not go on to the last sample.
+// After an exception the joint must hold, instead of moving on to the last sample.
 void Stream::end() noexcept {
   try {
     if (std::uncaught_exceptions() == exceptions_) return close();
@@ -104,7 +104,7 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
   checked_number(link_->name(), "t_s", t_s, "a time from -1e12 to 1e12 s, above the last one",
                  std::abs(t_s) <= kFarthestTime_s && (!last_t_s_ || t_s > *last_t_s_));
   const auto held = link_->lock();
-  // Not begun anew by the next sample: somebody may have ended it for a reason.
+  // A later sample does not restart the stream: another client may have ended it for a reason.
   if (over_) throw NotDone(fmt::format("{}: {}", link_->name(), kAnotherOne));
   if (last_cycle_) {
     link_->client().catch_up();
@@ -164,7 +164,7 @@ void Stream::wait_for_end() {
   check_refusals();
 }
 
-// Once, whatever comes of it, and not where it is somebody else's by now.
+// Sends the hold at most once, and not after the stream was lost: another client may use the joint then.
 void Stream::hold() {
   if (std::exchange(last_cycle_, std::nullopt)) send_stop(link_->client(), link_->name(), Action::kHold);
 }
@@ -233,7 +233,7 @@ void Stream::wait_until_due(std::int64_t cycle) {
   client.wait_until([&] { return client.has_refusals() || restarted(); }, Deadline(due_s));
 }
 
-// What the joint did to end it is told before what became of the samples since.
+// A fault or a yield of the joint is reported before the refusals that it caused.
 void Stream::check_refusals() {
   check_state(first_cycle_);
   while (const auto refusal = link_->client().take_refusal()) {
@@ -248,7 +248,7 @@ void Stream::check_refusals() {
   }
 }
 
-// A refusal may be here before the state that says why.
+// The refusal may arrive before the state that explains it.
 void Stream::check_joint() {
   Client& client = link_->client();
   const JointView& view = client.wait_for_joint(link_->name());
@@ -259,7 +259,7 @@ void Stream::check_joint() {
   check_state(view.state.cycle);
 }
 
-/// Before `from_cycle` a yield may be one from before the stream.
+/// In states before `from_cycle`, a yield may be older than the stream.
 void Stream::check_state(std::int64_t from_cycle) {
   check_restart();
   const JointView& view = link_->client().wait_for_joint(link_->name());

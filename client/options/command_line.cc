@@ -29,7 +29,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_hardware_commands(app, invocation);
 }
 
-/// Wherever a command has them among its words.
+/// The joints that the words of a command name, in any of its forms.
 std::vector<std::string> named_joints(const CLI::App& command) {
   const auto words = [&](const char* option) {
     const CLI::Option* const found = command.get_option_no_throw(option);
@@ -44,7 +44,7 @@ std::vector<std::string> named_joints(const CLI::App& command) {
   return joints;
 }
 
-/// For whom `app` was to do what, as far as it was understood.
+/// The command and the joints that `app` has understood.
 FailedCommand failed_command(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) return {};
@@ -65,7 +65,7 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
   CLI::App app{"Commands and observes the joints of strainwaved over LCM.", "strainwavectl"};
   Invocation invocation;
   configure(app, invocation);
-  // Also of words of which nothing was understood.
+  // Searches all words, because the parser may have failed before it reached the option.
   const bool json = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
   const auto tell = [&](const ProgramFailure& failure) {
     if (json)

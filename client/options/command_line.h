@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of strainwavectl: options and commands to calls of commands.h, errors to exit statuses.
-// Not real-time.
+// The command line of strainwavectl: turns options and commands into calls of commands.h, and errors into
+// exit statuses. Not real-time.
 #pragma once
 
 #include <ostream>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// Does what `argv` asks and says how it ended. `terminal`: a person looks at `out`.
+/// Runs the command of `argv` and returns the exit status. `terminal`: `out` is a terminal.
 ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                             bool terminal);
 

@@ -28,7 +28,7 @@ CLI::Validator positive_validator(const std::string& what) {
           ""};
 }
 
-/// States come 200 times a second, or as seldom as ten times: a shorter wait hears nothing and blames the daemon.
+/// States come at 10 to 200 Hz. A shorter wait would receive none and blame the daemon.
 CLI::Validator time_out_validator() {
   constexpr double kShortest_s = 0.1;
   constexpr double kLongest_s = 3600.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of strainwavectl as options of CLI11, one function per family, and what they share. Each adds
-// its commands to the command line; a command that was chosen leaves in the Invocation what is to be done.
-// Not real-time.
+// The commands of strainwavectl as options of CLI11, one function per family, and shared options. Each
+// function adds its commands to the command line. The chosen command stores its action in the Invocation. Not
+// real-time.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class Option;
 
 namespace strainwave {
 
-/// What the command line asks for.
+/// The request of the command line.
 struct Invocation {
   std::string lcm_url = kUsualLcmUrl;
   ClientOptions options;
@@ -28,7 +28,7 @@ struct Invocation {
   std::function<void(const Output&)> local_command;  ///< instead of `command`: needs neither LCM nor a daemon
 };
 
-/// What its man page and completion say beyond the command line.
+/// The parts of the man page and the completion that the command line does not contain.
 Manual manual_of_strainwavectl();
 
 /// Options for all commands, then the families in the order of the help.

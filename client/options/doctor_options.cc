@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// doctor.
+// Options of doctor.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of the commands that look at hardware, without a daemon.
+// Options of the commands for hardware, which need no daemon.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>

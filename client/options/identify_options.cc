@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// identify.
+// Options of identify.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// keygen.
+// Options of keygen.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// record, export, play, plot-record.
+// Options of record, export, play, plot-record.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What strainwavectl's man page and completion say beyond its command line.
+// The parts of strainwavectl's man page and completion that its command line does not contain.
 #include "client/options/command_options.h"
 #include "drivers/injected_fault.h"
 
@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-// Of all daemons that are heard. Names hold nothing that a shell takes for more than letters.
+// Lists the joints of all daemons heard. A name has no characters that are special to a shell.
 constexpr const char* kJointsHeard =
     R"x($(strainwavectl status --json --timeout_s 0.3 2>/dev/null | grep -o '"joint": *"[A-Za-z0-9_-]*"' | cut -d '"' -f 4))x";
 

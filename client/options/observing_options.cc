@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// status, timing, watch.
+// Options of status, timing, watch.
 #include <CLI/CLI.hpp>
 #include <memory>
 

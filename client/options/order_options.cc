@@ -28,7 +28,7 @@ void add_order(CLI::App& app, Invocation& invocation, const std::string& name, c
 
 using EachOrder = std::function<void(Client&, const Output&, const std::vector<std::string>&)>;
 
-/// A command on one joint or several, or with --all on every one that is heard.
+/// A command for one or several joints, or with --all for every joint heard.
 void add_order_to_each(CLI::App& app, Invocation& invocation, const std::string& name,
                        const std::string& help, const EachOrder& order) {
   CLI::App* command = app.add_subcommand(name, help);

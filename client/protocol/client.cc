@@ -13,12 +13,12 @@ namespace strainwave {
 
 namespace {
 
-// All joints of a daemon are published together; at the slowest sensible rate the next round comes within
+// A daemon publishes all of its joints together. At the slowest sensible rate the next round comes within
 // this time.
 constexpr double kOtherJoints_s = 0.3;
-// After a stop or a fault the next state or the one after it has a new challenge.
+// After a stop or a fault, one of the next two states has a new challenge.
 constexpr double kSettles_s = 0.2;
-// Refusals of a stream's samples that wait to be taken.
+// Largest number of refused stream samples that wait for take_refusal().
 constexpr std::size_t kRefusals = 16;
 
 }  // namespace
@@ -65,8 +65,8 @@ std::vector<JointName> Client::wait_for_heard() {
   return heard();
 }
 
-// A stop of ours and a fault end what states told before: an order of now quotes one that came after the stop's answer, and none with
-// the challenge that the fault was first seen with.
+// A stop and a fault make earlier states invalid. An order must quote a state that came after the stop's
+// answer. That state must not have the challenge of the first state with the fault.
 const JointView& Client::wait_until_settled(const std::string& joint) {
   const JointView& view = wait_for_joint(joint);
   const auto stopped = stopped_.find(joint);
@@ -76,7 +76,7 @@ const JointView& Client::wait_until_settled(const std::string& joint) {
   return view;
 }
 
-// Refused unread: another program of this key was ahead.
+// The daemon refused the order unread, because another program with this key was ahead.
 bool Client::rises_above(const Answer& refusal) {
   if (refusal.reason != Reason::kOldSequence || !ack_) return false;
   sender_.rise_above(ack_->last_sequence);

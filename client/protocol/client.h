@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A conversation with one daemon: learn its session from the state it publishes, send an order, repeat it
-// until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
+// A conversation with one daemon: it learns the session from the published state, sends an order, and repeats
+// the order until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
 #pragma once
 
 #include <array>
@@ -28,16 +28,15 @@ struct JointName {
 
 struct ClientOptions {
   std::string prefix = "SW";
-  double timeout_s =
-      2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
+  double timeout_s = 2.0;  ///< of each wait: for a state, for an acknowledgement, for a change of mode
   std::filesystem::path key_file = {};  ///< secret key to sign orders with; empty: unsigned
-  bool all_prefixes = false;    ///< what only looks (status, watch) looks at every daemon that is heard
-  bool names_commands = false;  ///< errors advise commands of strainwavectl, not calls of the library
+  bool all_prefixes = false;            ///< status and watch show every daemon that is heard
+  bool names_commands = false;          ///< errors name commands of strainwavectl, not calls of the library
 };
 
 class Client {
  public:
-  /// How often an order is sent with another sequence, when another program of its key was ahead.
+  /// Number of attempts, each with a higher sequence, when another program with the same key was ahead.
   static constexpr int kAttempts = 3;
 
   Client(Connection& connection, const ClientOptions& options);
@@ -46,33 +45,33 @@ class Client {
   Connection& connection() noexcept { return connection_; }
   const StateView& states() const noexcept { return states_; }
 
-  /// The latest view of `joint`, or null when nothing was heard of it.
+  /// The latest view of `joint`, or null if no message of it was received.
   const JointView* find(const std::string& joint) const { return states_.find(options_.prefix, joint); }
 
-  /// What an error tells its reader to do, in the words of what he uses: "Joint::clear_fault()", or "strainwavectl clear-fault elbow".
+  /// The call or command that an error recommends, in the user's interface: "Joint::clear_fault()", or "strainwavectl clear-fault elbow".
   std::string advice(std::string_view call, std::string_view command, const std::string& joint) const;
 
-  /// Waits until `joint` is heard; its view lasts as long as this client. Throws ClientError (no answer) that says what is heard instead.
+  /// Waits until `joint` is heard; its view lasts as long as this client. Throws ClientError (no answer) that lists the joints heard instead.
   const JointView& wait_for_joint(const std::string& joint);
 
-  /// Waits until a joint is heard, then a little for the others of the daemon. Throws like wait_for_joint().
+  /// Waits until a joint is heard, then a little longer for the other joints of the daemon. Throws like wait_for_joint().
   std::vector<std::string> wait_for_joints();
 
-  /// Joints that are heard of the prefix, or of all with all_prefixes; in order.
+  /// The joints heard under the prefix, or under all prefixes with all_prefixes; sorted.
   std::vector<JointName> heard() const;
   /// The same after waiting as wait_for_joints() does.
   std::vector<JointName> wait_for_heard();
 
-  /// Sends `message` (setpoint_v1, command_v1, gain_table_v1 or inject_v1) to `joint` on the channel of `kind` and waits
-  /// for the answer. Throws ClientError when the joint is not heard or no answer comes. It quotes the latest state, also when it is
-  /// repeated. So the daemon refuses it once that is a second old, or the joint was stopped or has faulted since.
+  /// Sends `message` (setpoint_v1, command_v1, gain_table_v1 or inject_v1) to `joint` on the channel of `kind` and waits for
+  /// the answer. Throws ClientError when the joint is not heard or no answer comes. The message and its repetitions quote the
+  /// latest state. The daemon refuses it if that state is over a second old, or if the joint stopped or faulted since.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
     Message prepared = message;
     return request(joint, kind, prepared, [](Message&) {});
   }
 
-  /// The same for a message that depends on when it goes out: `prepare` is called with it before every attempt.
+  /// The same for a message that depends on its time of sending: every attempt first calls `prepare` with it.
   template <typename Message, typename Prepare>
   Answer request(const std::string& joint, std::string_view kind, Message& message, const Prepare& prepare) {
     const Quote quote = quote_of(wait_until_settled(joint).state);
@@ -87,8 +86,8 @@ class Client {
     return answer;
   }
 
-  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait for a state, and
-  /// a key that cannot be used keeps nothing back; the signature only makes its answer sure.
+  /// The same for a stop, which must go out even when the joint is not heard. It does not wait for a state. With an unusable key it goes out
+  /// unsigned. The daemon obeys an unsigned stop, too, but only a signature makes its answer certain.
   template <typename Message>
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
@@ -99,11 +98,11 @@ class Client {
     return answer;
   }
 
-  /// A number for a new stream of setpoints.
+  /// Returns a number for a new stream of setpoints.
   std::int64_t new_stream() noexcept { return sender_.new_stream(); }
 
-  /// Sends `message` to a joint that is heard, once and without waiting: one of a stream. Only a refusal of
-  /// it is answered, see take_refusal().
+  /// Sends `message`, one of a stream, once and without waiting, to a joint that is heard. The daemon answers
+  /// only to refuse it, see take_refusal().
   template <typename Message>
   void send(const std::string& joint, std::string_view kind, const Message& message) {
     const Quote quote = quote_of(wait_for_joint(joint).state);
@@ -112,16 +111,16 @@ class Client {
     sent_[sent_count_++ % sent_.size()] = sealed.sequence;
   }
 
-  /// The daemon's oldest refusal of a message of send() that was not yet taken.
+  /// Returns the oldest refusal of a message of send() that was not yet taken.
   std::optional<Answer> take_refusal();
   bool has_refusals() const noexcept { return !refusals_.empty(); }
-  /// Answers to what send() sent before are dropped.
+  /// From now on ignores answers to earlier messages of send().
   void forget_sent() noexcept;
 
-  /// Dispatches what has come so far.
+  /// Dispatches all messages received so far.
   void catch_up();
 
-  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError (interrupted).
+  /// Dispatches messages until `done()` is true or the deadline passes. Returns whether it is done. Throws ClientError (interrupted).
   template <typename Done>
   bool wait_until(const Done& done, const Deadline& deadline) {
     while (!done()) {
@@ -143,10 +142,10 @@ class Client {
   ClientOptions options_;
   StateView states_;
   Sender sender_;
-  std::optional<PendingOrder> awaited_;  ///< the order whose answer counts
+  std::optional<PendingOrder> awaited_;  ///< the order that waits for its answer
   std::optional<ack_v1> ack_;
   std::map<std::string, std::int64_t>
-      stopped_;                           ///< states of a joint that had come when its last stop was answered
+      stopped_;  ///< number of states received from a joint when its last stop was answered
   std::array<std::int64_t, 256> sent_{};  ///< sequences of the latest messages of send()
   std::size_t sent_count_ = 0;
   std::deque<Answer> refusals_;

@@ -6,7 +6,7 @@
 
 namespace strainwave {
 
-/// A point of the monotonic clock: the only one that ages and time-outs are judged by.
+/// A time of the monotonic clock, the only clock for ages and time-outs.
 using Instant = std::chrono::steady_clock::time_point;
 
 Instant now() noexcept;
@@ -14,7 +14,7 @@ Instant now() noexcept;
 /// Seconds from `earlier` to `later`.
 double seconds_between(Instant earlier, Instant later) noexcept;
 
-/// A wait that ends.
+/// The end of a wait.
 class Deadline {
  public:
   explicit Deadline(double seconds);

@@ -19,18 +19,18 @@ namespace {
 
 constexpr std::string_view kWithoutNetwork = "memq://";
 
-/// A second of 64 joints at 200 Hz. A gateway that got no processor sends all at once what its ring holds, 8192 states, which is more than half of
-/// that; and a busy machine may leave out who records them.
+/// Holds one second of 64 joints at 200 Hz. A starved gateway later sends its whole ring at once: 8192
+/// states, over half of that second. A busy machine may also leave the recorder without a processor.
 constexpr int kSocketQueueBytes = 8 << 20;
 
-/// Some eight seconds of them: a disk may take so long to write what a build beside it has written.
+/// About eight seconds of those messages: a disk may take so long while it writes the files of a concurrent build.
 constexpr std::size_t kReadAheadBytes = 64 << 20;
 
 NoAnswer unavailable(const std::string& lcm_url, const std::string& why) {
   return NoAnswer("LCM is not available on '" + lcm_url + "': " + why);
 }
 
-/// Where the URL leads, once it is known that datagrams come back from there: LCM's own messages would not say what to do.
+/// Returns the multicast address of the URL after a check that datagrams come back from it. LCM's own error messages name no remedy.
 MulticastAddress checked(const std::string& lcm_url) {
   const auto address = parse_udpm_url(lcm_url);
   if (!address)
@@ -141,7 +141,7 @@ void Connection::take(const LcmSource& from, std::int64_t received_us,
   keep({std::string(message->channel), {message->bytes.begin(), message->bytes.end()}, received_us, from});
 }
 
-// Only what somebody wants.
+// Keeps only messages with a subscription.
 void Connection::keep(Waiting message) {
   const bool wanted = std::ranges::any_of(subscriptions_, [&](const Subscription::Entry& entry) {
     return matches(message.channel, entry.pattern);

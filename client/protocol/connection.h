@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The client's way to LCM's network: subscriptions, publishing, waiting. Knows bytes and channels, not messages. What comes in is
-// read by our own receiver (transport/): a crafted datagram ends any program that receives with LCM's library, which only
-// sends here. One thread, and with read_ahead() one that reads
-// the network for it. Not real-time.
+// The client's access to LCM's network: subscriptions, publishing, waiting. It handles bytes and channels,
+// not messages. It receives with Strainwave's own receiver (transport/), because a crafted datagram ends any
+// program that receives with LCM's library. That library only sends here. It uses one thread; after
+// read_ahead() a second thread reads the network. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +25,17 @@
 
 namespace strainwave {
 
-/// A message as it came, valid while its handler runs.
+/// A received message, valid while its handler runs.
 struct ReceivedMessage {
   const std::string& channel;
   std::span<const std::uint8_t> bytes;
-  std::int64_t received_us = 0;  ///< since the epoch, by our own clock
-  LcmSource from = {};           ///< nobody with memq://
+  std::int64_t received_us = 0;  ///< since the epoch, by this computer's clock
+  LcmSource from = {};           ///< nobody with memq:// empty with memq://
 };
 
 class Connection;
 
-/// Ends a subscription with its owner. Must not outlive the connection.
+/// Ends the subscription in its destructor. Must not outlive the connection.
 class Subscription {
  public:
   ~Subscription();
@@ -58,18 +58,18 @@ class Subscription {
 
 class Connection {
  public:
-  /// Messages that may wait until handle() is called; what comes then waits in the system's buffer, and is lost
-  /// when that is full.
+  /// Number of messages that may wait for handle(). Later ones wait in the system's buffer, and are lost when
+  /// that is full.
   static constexpr std::size_t kQueueCapacity = 4096;
 
-  /// Joins the network of `lcm_url`, udpm://GROUP:PORT?ttl=N; memq:// is none, but this object alone. Throws ClientError (LCM
-  /// unavailable) that says what to do.
+  /// Joins the network of `lcm_url`, udpm://GROUP:PORT?ttl=N. memq:// stays within this object, without a
+  /// network. Throws ClientError (LCM unavailable) that names the remedy.
   explicit Connection(const std::string& lcm_url);
 
   const std::string& url() const noexcept { return url_; }
 
-  /// Calls `method` of `handler` from handle() for each message whose channel matches `pattern` as a whole (a
-  /// regular expression), as long as the returned object lives.
+  /// From handle(), calls `method` of `handler` for each message whose whole channel matches `pattern` (a
+  /// regular expression). The subscription ends with the returned object.
   template <typename Handler>
   [[nodiscard]] Subscription subscribe(const std::string& pattern,
                                        void (Handler::*method)(const ReceivedMessage& message),
@@ -79,29 +79,29 @@ class Connection {
                              }}};
   }
 
-  /// Throws ClientError when LCM does not take the message.
+  /// Throws ClientError when LCM does not accept the message.
   void publish(const std::string& channel, std::span<const std::uint8_t> bytes);
-  /// publish() as a function, which must not outlive the connection.
+  /// Returns publish() as a function, which must not outlive the connection.
   auto publisher() {
     return
         [this](const std::string& channel, std::span<const std::uint8_t> bytes) { publish(channel, bytes); };
   }
 
-  /// From now on a separate thread reads the network, ahead of handle() by as much as memory has room for, and missing() counts.
-  /// This is for recorders, which need every message. With memq:// nothing changes.
+  /// From now on a separate thread reads the network ahead of handle(), within a limit of memory, and
+  /// missing() counts. Recorders use it, because they need every message. With memq:// nothing changes.
   void read_ahead();
-  /// Messages that `from` sent since then and that did not come; all of the network's losses and ours.
+  /// Number of messages that `from` sent since read_ahead() and that were lost, in the network or in this program.
   std::uint64_t missing(const LcmSource& from) const noexcept { return missing_.of(from); }
-  /// Of them, in datagrams: those for which read_ahead() had no room left.
+  /// Number of lost datagrams for which read_ahead() had no room.
   std::uint64_t without_room() const noexcept;
-  /// The system's queue before the socket: what it gave, and what was asked for.
+  /// The size of the socket's receive queue: granted by the system, and requested.
   struct SocketQueue {
     int given_bytes = 0;
     int asked_bytes = 0;
   };
   SocketQueue socket_queue() const noexcept;
 
-  /// Waits up to `timeout_ms`, half a second at most, for messages and dispatches one. False: there was none, or a signal came.
+  /// Waits up to `timeout_ms`, half a second at most, for messages and dispatches one. Returns false if none came or a signal interrupted the wait.
   bool handle(int timeout_ms);
 
  private:
@@ -111,7 +111,7 @@ class Connection {
     lcm::LCM sender;
     LcmSocket socket;
     LcmReassembly reassembly;
-    std::optional<LcmReadAhead> ahead;  ///< after the socket, which it reads
+    std::optional<LcmReadAhead> ahead;  ///< destroyed before the socket, which it reads
   };
   struct Waiting {
     std::string channel;
@@ -126,7 +126,7 @@ class Connection {
   void keep(Waiting message);
 
   std::string url_;
-  std::unique_ptr<Network> network_;  ///< none with memq://
+  std::unique_ptr<Network> network_;  ///< none with memq:// null with memq://
   Subscription::Entries subscriptions_;
   std::deque<Waiting> waiting_;
   MissingMessages missing_;

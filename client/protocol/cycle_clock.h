@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cycle the daemon is in, from the states that came: the one that travelled least long tells most. Not real-time.
+// Estimates the daemon's current cycle from received states. The state with the shortest travel time gives the estimate. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ class CycleClock {
  public:
   static constexpr std::size_t kStates = 64;
 
-  /// Forgets all: the daemon was restarted.
+  /// Forgets all states, after a restart of the daemon.
   void restart() noexcept { heard_.clear(); }
 
-  /// A state of `cycle` came at `received`.
+  /// Notes that a state of `cycle` was received at `received`.
   void take(std::int64_t cycle, Instant received) {
     if (heard_.size() == kStates) heard_.pop_front();
     heard_.push_back({cycle, received});
@@ -26,7 +26,7 @@ class CycleClock {
 
   bool empty() const noexcept { return heard_.empty(); }
 
-  /// The cycle at `time`, as a real number; at least one state must have come.
+  /// The cycle at `time`, as a real number. At least one state must have been received.
   ///   c(t) = max over the latest states of cycle_i + (t - received_i) / period_s
   double cycle_at(Instant time, double period_s) const noexcept {
     double latest = -std::numeric_limits<double>::infinity();

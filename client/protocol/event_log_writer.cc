@@ -19,7 +19,7 @@ lcm_eventlog_t* open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-// Names hold nothing that means something else in a regular expression.
+// A joint's name has no characters with a special meaning in a regular expression.
 std::string recorded_channels(const std::string& prefix, const std::vector<std::string>& joints) {
   if (joints.empty()) return prefix + "\\..*";
   return fmt::format("{}\\.(({})\\..*|{})", prefix, fmt::join(joints, "|"), channel_kind::kTiming);
@@ -36,7 +36,7 @@ EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix
 
 void EventLogWriter::on_message(const ReceivedMessage& message) {
   if (!good_) return;
-  std::string name = message.channel;  // liblcm wants both writable
+  std::string name = message.channel;  // liblcm requires writable text and data
   std::vector<std::uint8_t> data(message.bytes.begin(), message.bytes.end());
   lcm_eventlog_event_t event{};
   event.timestamp = message.received_us;

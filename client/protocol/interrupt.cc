@@ -18,7 +18,7 @@ void note_signal(int) {
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = note_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal finds the default: the end
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::size(path_v1{}.time_s) == JointPath::kMostKnots);
 
-// A way that takes less is given this time: knots lie several periods of any daemon apart.
+// Shortest duration of a ramp. It keeps the knots several periods of any daemon apart.
 constexpr double kShortestRamp_s = 0.05;
 
 path_v1 part_of(const JointPath& part, std::int64_t path_id, std::size_t joint_count) {
@@ -44,7 +44,7 @@ double farthest_rad(const JointPath& part) {
   return farthest;
 }
 
-/// Of the share of the way: it rises with `rate` for `up_s`, goes on at it for `even_s` and falls for `down_s`.
+/// The speed of the share of the distance over time: it rises to `rate_1_s` in `up_s`, stays for `even_s` and falls in `down_s`.
 struct Trapezoid {
   double rate_1_s = 0.0;
   double up_s = 0.0;
@@ -61,7 +61,7 @@ Trapezoid trapezoid_of(double rate_1_s, double acceleration_1_s2, double deceler
   const double ramps = 0.5 * shape.rate_1_s * (shape.up_s + shape.down_s);
   shape.even_s = (1.0 - ramps) / shape.rate_1_s;
   if (shape.even_s >= kShortestRamp_s) return shape;
-  // No even part, or one too short for knots of its own: the ramps are the whole way.
+  // The even part is absent, or too short for its own knots. The ramps take the whole distance.
   shape.even_s = 0.0;
   shape.rate_1_s = std::min(shape.rate_1_s, 2.0 / (shape.up_s + shape.down_s));
   const double longer = 2.0 / (shape.rate_1_s * (shape.up_s + shape.down_s));
@@ -84,7 +84,7 @@ JointPath along(const StraightMove& move, const Trapezoid& shape) {
   return path;
 }
 
-/// A path that is waited for, looked at again and again. Its joints have one time: any of them shows it.
+/// Watches a path during a wait. All joints share the time on the path, so that the first joint shows it.
 class PathLook {
  public:
   PathLook(Client& client, const std::vector<JointPath>& path, const PathWait& wait)
@@ -182,7 +182,7 @@ std::vector<JointPath> straight_path(const std::vector<StraightMove>& moves) {
     acceleration_1_s2 = std::min(acceleration_1_s2, move.acceleration_rad_s2 / way_rad);
     deceleration_1_s2 = std::min(deceleration_1_s2, move.deceleration_rad_s2 / way_rad);
   }
-  // Nobody has any way to go.
+  // No joint has to move.
   if (!std::isfinite(rate_1_s)) rate_1_s = acceleration_1_s2 = deceleration_1_s2 = 1.0 / kShortestRamp_s;
   const Trapezoid shape = trapezoid_of(rate_1_s, acceleration_1_s2, deceleration_1_s2);
   std::vector<JointPath> path;

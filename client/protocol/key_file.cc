@@ -20,7 +20,7 @@ namespace {
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(errno));
 }
 
-// O_EXCL: whoever put a file or a link there first keeps it.
+// O_EXCL keeps an existing file or link.
 void write_new_file(const std::filesystem::path& path, const std::string& line, mode_t mode) {
   const UniqueFd file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file.get() < 0 && errno == EEXIST)
@@ -59,7 +59,7 @@ SecretKeyText read_secret_key(const std::filesystem::path& path) {
   const ssize_t size = ::read(file.get(), text.data(), text.size());
   if (size < 0) fail(path, "the key cannot be read");
   const std::string_view content(text.data(), static_cast<std::size_t>(size));
-  // First whether it is one: a public key is for everybody to read.
+  // Checks the content first, because a public key may be readable by all.
   SecretKeyText key = parse(content.substr(0, content.find('\n')), path);
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw InputError(path.string() + ": other users can reach this secret key: chmod 600 " + path.string() +

@@ -9,11 +9,11 @@
 
 namespace strainwave {
 
-/// Reads the key in `path`. Throws InputError: unreadable, readable by others, not a secret key.
+/// Reads the key in `path`. Throws InputError if the file is unreadable, accessible to other users, or not a secret key.
 SecretKeyText read_secret_key(const std::filesystem::path& path);
 
-/// Makes `path` (mode 0600) and `path`.pub with a new key. Throws InputError when either exists: a key that
-/// is in use is never overwritten.
+/// Makes `path` (mode 0600) and `path`.pub with a new key. Throws InputError when either file exists: a key
+/// in use is never overwritten.
 AuthorizedKey write_new_key(const std::filesystem::path& path, Role role, const std::string& comment);
 
 }  // namespace strainwave

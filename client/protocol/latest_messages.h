@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The latest message of one kind from every joint (or daemon) that is heard, under any prefix. Bytes from the network are
-// hostile: messages of another size or type, and other channels, are ignored. A sender that makes up names loses only its own
-// (transport/fair_places.h). Not real-time.
+// The latest message of one kind from every joint (or daemon), under any prefix. Bytes from the network are
+// hostile: messages of another size or type, and other channels, are ignored. A sender that invents names
+// displaces only its own names (transport/fair_places.h). Not real-time.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@
 
 namespace strainwave {
 
-/// Where each type of message comes from.
+/// The channel kind of each type of message.
 template <typename Message>
 inline constexpr std::string_view kKindOf{};
 template <>
@@ -37,7 +37,7 @@ inline constexpr std::string_view kKindOf<limits_v1> = channel_kind::kLimits;
 template <>
 inline constexpr std::string_view kKindOf<timing_v1> = channel_kind::kTiming;
 
-/// Whether a daemon may have sent it. With the time of a sample, such a cycle yet fits into a message.
+/// Whether a daemon may have sent the message. The limit keeps later arithmetic with cycles from overflow.
 template <typename Message>
 bool is_believable(const Message&) noexcept {
   return true;
@@ -47,15 +47,15 @@ inline bool is_believable(const state_v1& state) noexcept {
   return state.cycle >= 0 && state.cycle <= kLargestCycle;
 }
 inline bool is_believable(const limits_v1& limits) noexcept {
-  return limits.period_s >= 1e-6 && limits.period_s <= 1.0;  // wider than those of any daemon
+  return limits.period_s >= 1e-6 && limits.period_s <= 1.0;  // wider than the range of any daemon
 }
 
 template <typename Type>
 struct Latest {
   using Message = Type;
   Message message{};
-  Instant received;           ///< by our own clock
-  std::int64_t messages = 0;  ///< received so far
+  Instant received;           ///< by this computer's clock
+  std::int64_t messages = 0;  ///< number of messages so far
 
   void take(const Message& latest) {
     message = latest;
@@ -64,35 +64,35 @@ struct Latest {
   }
 };
 
-/// `View`: Latest, or what remembers more of its messages; take() is called for each.
+/// `View` is Latest, or a type that remembers more. Its take() is called for each message.
 template <typename View>
 class LatestMessages {
  public:
   using Message = typename View::Message;
-  using Name = std::pair<std::string, std::string>;  ///< prefix, joint (empty: the daemon as a whole)
+  using Name = std::pair<std::string, std::string>;  ///< prefix, joint (empty: the daemon itself)
 
-  /// More names than any network of ours has, besides those that are kept.
+  /// Places for names, in addition to kept names. No real network has more.
   static constexpr std::size_t kMaxNames = 1024;
-  /// Prefixes on which another version was heard.
+  /// Largest number of prefixes with another version.
   static constexpr std::size_t kMaxOthers = 64;
 
   /// Starts to listen.
   explicit LatestMessages(Connection& connection)
       : subscription_(connection.subscribe(pattern(), &LatestMessages::on_message, this)) {}
 
-  /// From now on `name` keeps its place: what find() returned of it lasts as long as this object.
+  /// From now on `name` keeps its place. The result of find() for it lasts as long as this object.
   void keep(const Name& name) {
     if (kept_.insert(name).second) places_.leave(name);
   }
 
-  /// Null when nothing was heard yet. Lasts until the next message, for ever if the name is kept.
+  /// Null if no message came yet. Valid until the next message, or for a kept name as long as this object.
   const View* find(const std::string& prefix, const std::string& joint = "") const {
     const auto found = views_.find({prefix, joint});
     return found == views_.end() ? nullptr : &found->second;
   }
   const std::map<Name, View>& all() const noexcept { return views_; }
 
-  /// Whether a message came under `prefix` that a program of another version sends.
+  /// Whether a program of another version has sent a message under `prefix`.
   bool another_version(const std::string& prefix) const { return others_.contains(prefix); }
 
   /// Takes one message, as the subscription does.
@@ -123,7 +123,7 @@ class LatestMessages {
   std::map<Name, View> views_;
   FairPlaces<Name> places_{kMaxNames};
   std::set<std::string> others_;  ///< prefixes
-  std::set<Name> kept_;           ///< of a program's own, so that they are not many
+  std::set<Name> kept_;           ///< the program's own names, which are few
   Subscription subscription_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way to LCM's network for a program that hears it otherwise. Not real-time.
+// Sends to LCM's network for a program with its own receiver. Not real-time.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// Sends on the network of `lcm_url`, which must have passed find_udpm_defect(). What LCM does not take is lost as on the network: who sends
-/// repeats what must arrive. Throws InputError when the system refuses.
+/// Sends on the network of `lcm_url`, which must have passed find_udpm_defect(). A message that LCM rejects is lost,
+/// as in the network, so the caller repeats important messages. Throws InputError when LCM cannot send there.
 PendingOrder::Publish lcm_sender(const std::string& lcm_url);
 
 }  // namespace strainwave

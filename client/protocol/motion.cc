@@ -20,17 +20,17 @@ namespace strainwave {
 
 namespace {
 
-/// A motion that is waited for.
+/// A motion whose end is awaited.
 struct Motion {
-  Mode mode;            ///< while it lasts
+  Mode mode;            ///< mode during the motion
   std::string purpose;  ///< in words, after "did not"
   std::function<bool(const JointView&)> replaced =
-      nullptr;  ///< by another order of this kind; null: cannot be
+      nullptr;  ///< whether another order of this kind replaced it; null: impossible
   std::function<void(const JointView&)> observe =
-      nullptr;  ///< of a state that shows this order's target, though it may be from before it
+      nullptr;  ///< sees each state with this order's target, which may be older than the order
 };
 
-/// What ends the wait before the joint is there, in words; empty while it is on its way.
+/// The reason why the wait ends before the joint arrives, in words. Empty while the joint is moving.
 std::string motion_ended(const JointView& view, const Motion& motion, std::int64_t session_id) {
   if (view.state.session_id != session_id) return "the daemon was restarted";
   const Mode mode = mode_of(view);
@@ -39,10 +39,10 @@ std::string motion_ended(const JointView& view, const Motion& motion, std::int64
   return "";
 }
 
-/// A joint's motion, looked at again and again once its order is in force.
+/// Watches a joint's motion once its order is in force.
 class MotionWatch {
  public:
-  /// `done`: whether it came to its end.
+  /// `done` returns whether the motion has ended as ordered.
   MotionWatch(const Client& client, const std::string& joint, Motion motion,
               std::function<bool(const JointView&)> done)
       : client_(client),
@@ -55,11 +55,11 @@ class MotionWatch {
   const JointView& view() const noexcept { return *view_; }
 
   bool faulted() const { return mode_of(*view_) == Mode::kFaulted; }
-  /// To a load, in this motion.
+  /// Whether the joint has yielded to a load in this motion.
   bool yielded() { return motion_.replaced && in_force() && has_yielded(*view_); }
   Faulted fault() const { return strainwave::faulted(client_, joint_); }
   Yielded yield() const { return strainwave::yielded(joint_, "did not " + motion_.purpose, *view_); }
-  /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise, but for a fault.
+  /// Returns true once the motion is done. Throws if it ended otherwise, except for a fault, or if the daemon is silent for `silence_s`.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
       throw NoAnswer(
@@ -75,7 +75,7 @@ class MotionWatch {
   }
 
  private:
-  /// Whether the state is of this motion, or of what came after it.
+  /// Whether the state shows this motion or a later one.
   bool in_force() {
     seen_ = seen_ || (mode_of(*view_) == motion_.mode && !(motion_.replaced && motion_.replaced(*view_)));
     return seen_ || old_states_.passed();
@@ -91,7 +91,7 @@ class MotionWatch {
   bool seen_ = false;
 };
 
-/// States of one cycle come one after the other: waits for those that belong to the first joint's.
+/// The states of one cycle arrive one by one. Waits until all joints have reached the cycle of the first.
 void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions) {
   constexpr double kSameCycle_s = 0.05;
   const JointView& first = motions.front().view();
@@ -104,8 +104,8 @@ void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions
       Deadline(kSameCycle_s));
 }
 
-/// Throws what stopped any of them, a fault or a load, and with it what stopped others: once all have come to rest, at most a time-out
-/// later, and where others only stopped with it, a moment after that: who drove into something, too, may show it then.
+/// If a fault or a load stopped any joint, throws an error that names every such joint. First it waits until all joints rest, at
+/// most one time-out. Then it waits a moment more, because a joint that stopped with the others may also show a fault or a yield.
 void check_stops(Client& client, std::vector<MotionWatch>& motions) {
   constexpr double kMoment_s = 0.3;
   const auto stopped = [](MotionWatch& motion) { return motion.faulted() || motion.yielded(); };
@@ -133,8 +133,8 @@ void check_stops(Client& client, std::vector<MotionWatch>& motions) {
     throw Yielded(text, yields.front().details().joint, yields.front().to(), std::move(each));
 }
 
-/// Returns once all of them are done. A fault, or a yield, is told before what it made of those that move with the joint.
-/// `look`: see wait_until_arrived().
+/// Returns once all motions are done. Reports a fault or a yield before its effects on the joints that move
+/// along. `look`: see wait_until_arrived().
 void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
                       const std::function<void()>& look = nullptr) {
   constexpr double kLook_s = 0.01;
@@ -150,20 +150,20 @@ void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
   }
 }
 
-/// Inside a tolerance of a target, and staying there.
+/// Watches whether a joint is inside the tolerance of its target and stays there.
 class ArrivalWatch {
  public:
   ArrivalWatch(double target_rad, double tolerance_rad, double patience_s)
       : target_rad_(target_rad), tolerance_rad_(tolerance_rad), patience_s_(patience_s), start_(now()) {}
 
-  /// From when on it is inside. A short motion may be over before it is known to be this order's.
+  /// Notes the time at which the joint got inside. A short motion may end before its order is known to be in force.
   void observe(const JointView& view) {
     if (!(std::abs(error_rad(view)) <= tolerance_rad_))
       inside_.reset();
     else if (!inside_)
       inside_ = view.received;
   }
-  /// True once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
+  /// Returns true once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
   bool reached(const std::string& joint, const JointView& view) {
     constexpr double kStay_s = 0.1;
     if (mode_of(view) != Mode::kHolding) {
@@ -178,7 +178,7 @@ class ArrivalWatch {
                     joint);
     return false;
   }
-  /// From the order to when it was inside for good.
+  /// Time from the start of the watch until the joint stayed inside.
   double duration_s() const { return std::max(0.0, seconds_between(start_, *inside_)); }
   double error_rad(const JointView& view) const {
     return plain_zero(target_rad_ - view.state.joint_position_rad);
@@ -193,11 +193,11 @@ class ArrivalWatch {
   std::optional<Instant> holding_;
 };
 
-/// Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
+/// Refuses a move of more than an hour. It is probably a mistake, and no path may take longer either.
 void require_quick_enough(const std::string& joint, const MoveOrder& order, double from_rad) {
   const double way_rad = std::abs(order.position_rad - from_rad);
   if (order.speed_limit_rad_s <= 0.0 || way_rad <= order.speed_limit_rad_s * kLongestMove_s) return;
-  constexpr double kMargin = 1.01;  // for what printing rounds off
+  constexpr double kMargin = 1.01;  // for rounding in the message
   const std::string hint = degrees_hint(order.position_rad);
   throw InvalidInput(
       fmt::format(

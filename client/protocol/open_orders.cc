@@ -51,7 +51,7 @@ void OpenOrders::take(const std::string& channel, const ack_v1& ack) {
   done(&answer);
 }
 
-// Another program of this key was ahead. The state that it quotes stays that of when it was given.
+// Another program with this key was ahead. The new message quotes the same state as the first one.
 bool OpenOrders::renew(Waiting& waiting, const ack_v1& refusal) {
   if (static_cast<Reason>(refusal.reason) != Reason::kOldSequence || waiting.renewals >= kRenewals)
     return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders of one sender to joints of any daemon, each of them repeated until it is answered, while the program does something else.
-// It waits for nothing. Not real-time.
+// Orders of one sender to joints of any daemon. Each is repeated until it is answered, while the program
+// continues. Nothing here waits. Not real-time.
 #pragma once
 
 #include <functional>
@@ -17,24 +17,24 @@ namespace strainwave {
 class OpenOrders {
  public:
   using Name = std::pair<std::string, std::string>;  ///< prefix, joint
-  /// Makes the message; called again where it needs a higher sequence.
+  /// Makes the message. It is called again when a higher sequence is needed.
   using Seal = std::function<SealedMessage()>;
-  /// The daemon's answer; null: none came.
+  /// Called with the daemon's answer, or with null if none came.
   using Done = std::function<void(const Answer* answer)>;
 
-  /// `sender` has sealed, and will seal, what is posted; it must outlive this.
+  /// `sender` seals the posted messages, and must outlive this object.
   OpenOrders(PendingOrder::Publish publish, Sender& sender);
 
-  /// Sends what `seal` makes to `joint` and calls `done` at most once: from tick() or take(). What is refused unread, since another program of
-  /// this key was ahead, is sent with a higher sequence, a few times. Throws what `seal` throws.
+  /// Sends the message of `seal` to `joint`. Calls `done` at most once, from tick() or take(). If another program of this key was ahead,
+  /// the daemon refuses the message unread; it is then sent again with a higher sequence, a few times. Throws the errors of `seal`.
   void post(const Name& joint, Seal seal, const Patience& patience, Done done);
 
-  /// Drops what waits for an answer of `joint`: it is not repeated, and its `done` is not called. A stop does so first.
+  /// Drops the open orders to `joint`: they are not repeated, and their `done` is not called. A stop calls this first.
   void withdraw(const Name& joint);
 
-  /// Repeats what was not answered. Call often.
+  /// Repeats unanswered orders. Call it often.
   void tick();
-  /// An answer that came on `channel`.
+  /// Takes an answer from `channel`.
   void take(const std::string& channel, const ack_v1& ack);
 
   std::size_t size() const noexcept { return waiting_.size(); }
@@ -43,7 +43,7 @@ class OpenOrders {
   struct Waiting {
     Name joint;
     PendingOrder order;
-    std::function<PendingOrder()> anew;  ///< the same with the next sequence
+    std::function<PendingOrder()> anew;  ///< the same order with the next sequence
     Done done;
     int renewals = 0;
   };
@@ -54,7 +54,7 @@ class OpenOrders {
   std::vector<Waiting> waiting_;
 };
 
-/// As people read it.
+/// The name for people: PREFIX.JOINT.
 std::string full_name(const OpenOrders::Name& joint);
 
 }  // namespace strainwave

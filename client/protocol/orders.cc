@@ -16,7 +16,7 @@ bool is_enabled(Mode mode) {
   return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
 }
 
-/// Waits for what an accepted order leads to.
+/// Waits for the mode that an accepted order leads to.
 template <typename Decided>
 void wait_for_mode(Client& client, const std::string& joint, const Decided& decided) {
   if (client.wait_until(decided, Deadline(client.options().timeout_s))) return;

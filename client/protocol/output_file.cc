@@ -13,12 +13,12 @@ UniqueFd claim_output(const std::filesystem::path& file, bool overwrite) {
   if (std::filesystem::is_directory(file, error))
     throw ClientError(ExitStatus::kUsage, file.string() + ": is a folder: name a file");
   refuse_to_replace(file, overwrite);
-  // Into a pipe or a device, several may write.
+  // Several programs may write to a pipe or a device.
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     return UniqueFd();
   UniqueFd claim(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
   if (!claim) throw not_writable(file);
-  // A file system without locks refuses nobody.
+  // On a file system without locks, the claim always succeeds.
   if (::flock(claim.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw ClientError(ExitStatus::kUsage,
                       file.string() +

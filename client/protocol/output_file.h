@@ -13,7 +13,7 @@
 
 namespace strainwave {
 
-/// Whether the name ends so, in letters of either size: `extension` in small ones, with its dot.
+/// Whether the name ends with `extension`, regardless of case. `extension` is lower case, with its dot.
 inline bool is_named(const std::filesystem::path& file, std::string_view extension) {
   const std::string end = file.extension().string();
   return std::equal(end.begin(), end.end(), extension.begin(), extension.end(), [](char a, char b) {
@@ -27,13 +27,12 @@ inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite)
     throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
 }
 
-/// Opens `file`, which is made if it is not there, for one writer: no other process can claim it while the descriptor is open. Throws
-/// ClientError (usage) as above, when it is a folder, when it cannot be written, and when another process writes it now; then it is
-/// unchanged.
+/// Opens or creates `file` for one writer: no other process can claim it while the descriptor is open. Throws
+/// ClientError (usage) as above, for a folder, for an unwritable file, and while another process writes it.
+/// The file is then unchanged.
 UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 
-/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one, and when one that is to be it has another format's
-/// name.
+/// Throws ClientError (usage) when the name of a file contradicts its format, which is MCAP if `mcap`.
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
   if (!mcap && is_named(file, ".mcap"))
     throw ClientError(ExitStatus::kUsage,
@@ -43,7 +42,7 @@ inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
                       file.string() + " would be an MCAP file: leave --mcap out, or choose another name");
 }
 
-/// That `file` could not be created or opened for writing.
+/// The error for a `file` that cannot be created or opened for writing.
 inline ClientError not_writable(const std::filesystem::path& file) {
   return {ExitStatus::kUsage, file.string() + " cannot be written: does its folder exist, is it yours?"};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of a negative zero a plain one: what a person reads or another program compares. Any other number, and no number, stays.
+// Turns a negative zero into a plain zero, for people and for comparisons. Other numbers and NaN stay.
 #pragma once
 
 #include <type_traits>

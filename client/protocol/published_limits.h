@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The limits that daemons publish of their joints, for who has to know them before he orders. Not real-time.
+// The limits that daemons publish for their joints, for programs that need them before an order. Not real-time.
 #pragma once
 
 #include <strainwave/limits_v1.hpp>
@@ -11,16 +11,16 @@
 
 namespace strainwave {
 
-/// Throws InvalidInput unless `joint` may go to `position_rad`; in the daemon's words, and with a hint to who may mean degrees.
+/// Throws InvalidInput, in the daemon's words, unless `joint` may go to `position_rad`. Adds a hint if degrees may be meant.
 void require_in_range(const std::string& joint, double position_rad, const limits_v1& limits);
 
 class PublishedLimits {
  public:
-  /// Starts to listen for `joints`, under the client's prefix. `client` outlives this.
+  /// Starts to listen for `joints`, under the client's prefix. `client` must outlive this object.
   PublishedLimits(Client& client, const std::vector<std::string>& joints);
 
-  /// The limits of `joint`, one of those that are listened for, from the daemon whose states are heard: waits until both have come.
-  /// Lasts as long as this; later limits take its place. Throws NoAnswer.
+  /// Waits for the limits of `joint`, one of `joints`, from the daemon that publishes its states. The result
+  /// lasts as long as this object, and later limits update it. Throws NoAnswer.
   const limits_v1& wait_for(const std::string& joint);
 
  private:

@@ -15,14 +15,14 @@ namespace strainwave {
 
 namespace {
 
-// FNV-1a: the Python package (client/python) comes to the same number.
+// FNV-1a: the Python package (client/python) computes the same number.
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char character : text) hash = (hash ^ static_cast<std::uint8_t>(character)) * 0x100000001b3;
   return hash;
 }
 
-// 62 bits of this machine's and this user's names, and the program's if it owns for itself; never 0.
+// 62 bits from the names of this machine and user, and of the program if it owns joints for itself. Never 0.
 std::int64_t own_identity(const std::string& program) {
   std::array<char, HOST_NAME_MAX + 1> host{};
   (void)::gethostname(host.data(), host.size() - 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Seals messages to the daemon: the one place that fills in who sends, for which session, in which order, and
-// the signature. Not real-time.
+// Seals messages to the daemon: only this class fills in the sender, the session, the sequence and the
+// signature. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace strainwave {
 
-/// What of a joint's state an order must quote.
+/// The fields of a joint's state that an order must quote.
 struct Quote {
   std::int64_t session_id = 0;
   std::int64_t challenge = 0;
@@ -28,7 +28,7 @@ Quote quote_of(const State& state) {
   return {state.session_id, state.challenge};
 }
 
-/// A message ready for the wire. Sending it twice sends the same order: the sequence is part of it.
+/// A message ready for the network. Sending it twice sends the same order, because the sequence is part of it.
 struct SealedMessage {
   std::string channel;
   std::int64_t sender_id = 0;
@@ -38,16 +38,16 @@ struct SealedMessage {
 
 class Sender {
  public:
-  /// Takes the identity of this user on this machine: programs of theirs that follow each other own the same joints.
-  /// `key_file`: the secret key to sign with, read when the first order is signed; empty: orders go out unsigned.
-  /// `program`: one that owns joints for itself; empty: it shares them with others of this user.
+  /// Takes the identity of this user on this machine, so that successive programs of the user own the same joints.
+  /// `key_file`: the secret key, read before the first signature; empty: orders go out unsigned. `program`: the name
+  /// of a program that owns joints for itself; empty: it shares them with the user's other programs.
   explicit Sender(std::filesystem::path key_file = {}, const std::string& program = "");
   explicit Sender(std::int64_t sender_id) : sender_id_(sender_id) {}
 
   std::int64_t sender_id() const noexcept { return sender_id_; }
 
-  /// Completes `message` (a setpoint, command or table) for the daemon that is quoted and signs it. Throws
-  /// InputError when the key cannot be used.
+  /// Completes `message` (a setpoint, command or table) for the quoted daemon and signs it. Throws InputError
+  /// when the key cannot be used.
   template <typename Message>
   SealedMessage seal(std::string channel, const Message& message, const Quote& quote) {
     SealedMessage sealed = seal_unsigned(std::move(channel), message, quote);
@@ -55,14 +55,14 @@ class Sender {
     return sealed;
   }
 
-  /// A stop: signed if that is possible, as it is if not. No trouble with a key may keep it back.
+  /// Seals a stop: signed if possible, otherwise unsigned. A problem with the key must not hold it back.
   template <typename Message>
   SealedMessage seal_stop(std::string channel, const Message& message, const Quote& quote) {
     SealedMessage sealed = seal_unsigned(std::move(channel), message, quote);
     try {
       sign_if_keyed(sealed.channel, sealed.bytes);
     } catch (const InputError&) {
-      // unsigned, then
+      // The stop goes out unsigned.
     }
     return sealed;
   }
@@ -78,19 +78,19 @@ class Sender {
     return {std::move(channel), message.sender_id, message.sequence, encode(message)};
   }
 
-  /// A number for a stream of setpoints that no other stream of this sender has.
+  /// Returns a number for a stream of setpoints, unique among the streams of this sender.
   std::int64_t new_stream() noexcept { return next_sequence(utime_now()); }
 
-  /// Sequences rise with the clock, in microseconds; nothing that a daemon answers comes near this.
+  /// Sequences rise with the clock, in microseconds. No real answer of a daemon comes near this value.
   static constexpr std::int64_t kLargestSequence = std::int64_t{1} << 62;
-  /// The next order's sequence is above `sequence`: another program of this key was ahead. What leaves no room above it
-  /// is no daemon's answer.
+  /// Makes the next sequence larger than `sequence`, after another program with this key was ahead. It
+  /// ignores values from kLargestSequence on, which no daemon sends.
   void rise_above(std::int64_t sequence) noexcept {
     if (sequence < kLargestSequence) sequence_ = std::max(sequence_, sequence);
   }
 
  private:
-  /// Rises over everything that is sent, and with the clock over all programs of one key.
+  /// Larger than every earlier sequence of this sender. Through the clock, it also exceeds those of other programs with the key.
   std::int64_t next_sequence(std::int64_t utime) noexcept;
   void sign_if_keyed(const std::string& channel, std::span<std::uint8_t> bytes);
 

@@ -22,7 +22,7 @@ void JointView::take(const state_v1& latest) {
 }
 
 std::string silence_of(const JointView& view, double timeout_s) {
-  constexpr double kLongest_s = 0.5;  // states come ten times a second at the least
+  constexpr double kLongest_s = 0.5;  // states come at least ten times a second
   const double silent_s = seconds_between(view.received, now());
   if (silent_s < std::min(kLongest_s, timeout_s)) return "";
   return fmt::format("no state for {:.1f} s", silent_s);

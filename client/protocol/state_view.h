@@ -10,20 +10,20 @@
 
 namespace strainwave {
 
-/// What was heard of one joint.
+/// The received data of one joint.
 struct JointView {
   using Message = state_v1;
   state_v1 state{};
-  Instant received;                   ///< by our own clock
-  std::int64_t messages = 0;          ///< received so far
+  Instant received;                   ///< by this computer's clock
+  std::int64_t messages = 0;          ///< number of messages so far
   std::int64_t previous_session = 0;  ///< session before the last change, 0: no change yet
   bool two_daemons = false;           ///< an earlier session came back: two daemons use the same channels
-  std::int64_t fault_challenge = -1;  ///< of the state that showed its last fault first, -1: none did
+  std::int64_t fault_challenge = -1;  ///< challenge of the first state with its last fault, -1: none
 
   void take(const state_v1& latest);
 };
 
-/// "no state for 3.2 s" where none came for half a second, or for `timeout_s` if that is less; else empty.
+/// "no state for 3.2 s" after half a second without a state, or after `timeout_s` if that is less; otherwise empty.
 std::string silence_of(const JointView& view, double timeout_s);
 
 /// See lcmtypes/cycle_fields.h.
@@ -39,12 +39,12 @@ class StateView {
   /// See LatestMessages.
   void keep(const std::string& prefix, const std::string& joint) { latest_.keep({prefix, joint}); }
 
-  /// The joint, or null when nothing was heard of it. Lasts until the next message, for ever if the joint is kept.
+  /// The joint, or null if it was not heard. Valid until the next message, or for a kept joint as long as this object.
   const JointView* find(const std::string& prefix, const std::string& joint) const {
     return latest_.find(prefix, joint);
   }
 
-  /// Names of the joints heard under `prefix`, and all prefixes heard; in order.
+  /// The joints heard under `prefix`, and all prefixes heard; sorted.
   std::vector<std::string> joints(const std::string& prefix) const;
   std::vector<std::string> prefixes() const;
 

@@ -30,10 +30,10 @@ std::string kind_of(ExitStatus status, const ClientError::Details& details) {
   }
 }
 
-/// All errors are worded alike: what was given, a colon, what is allowed.
+/// All errors have the same form: the given value, a colon, the allowed range.
 void add_allowed(Json& json, const std::string& text) {
   static const std::regex given(R"(([\w.-]+) = ([^:;]*): )");
-  // What a path asks for at a knot: its limit's name says more than "speed in rad/s".
+  // For a knot of a path, the name of its limit is a better key than "speed in rad/s".
   static const std::regex asked(R"((\w+) in [^=:;]* = ([^:;]*): )");
   static const std::regex limit(R"(allowed \((joint\.[\w.]+)\))");
   static const std::regex knot(R"(\bknot (\d+)\b)");

@@ -53,7 +53,7 @@ set autoscale xfix
 set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 front
 )";
 
-/// Modes have the numbers from 0 on; the first one without a name ends them.
+/// The modes are numbered from 0 without gaps. The first number without a name is their count.
 int mode_count() {
   int count = 0;
   while (to_text(static_cast<Mode>(count)) != to_text(static_cast<Mode>(-1))) ++count;

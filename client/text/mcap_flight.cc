@@ -41,12 +41,12 @@ std::int64_t fault_ns(const FlightRecordInfo& info, const std::string& source) {
   int second = 0;
   std::istringstream stream(text);
   std::array<char, 6> marks{};
-  // "2026-11-21T03:04:05Z"; the marks keep their signs from the numbers.
+  // "2026-11-21T03:04:05Z". Each separator is read as one character, so that "-" does not become a sign.
   stream >> year >> marks[0] >> month >> marks[1] >> day >> marks[2] >> hour >> marks[3] >> minute >>
       marks[4] >> second >> marks[5];
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
                                          std::chrono::day(day)};
-  // Nanoseconds since 1970 have to hold it.
+  // The range that fits into nanoseconds since 1970.
   const bool in_range = year >= 1970 && year < 2262 && date.ok() && hour >= 0 && hour < 24 && minute >= 0 &&
                         minute < 60 && second >= 0 && second <= 60;
   if (!stream || std::string_view(marks.data(), marks.size()) != "--T::Z" || !in_range)

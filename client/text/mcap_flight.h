@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight record (docs/flight-recorder.md) as an MCAP file: one topic, a JSON message for each cycle. Not real-time.
+// Converts a flight record (docs/flight-recorder.md) to an MCAP file: one topic, with a JSON message for each cycle. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Whether the first line of `file` is that of a flight record, of any format.
+/// Whether the first line of `file` marks a flight record, of any format version.
 bool is_flight_record(const std::filesystem::path& file);
 
 struct FlightMcap {
@@ -16,9 +16,9 @@ struct FlightMcap {
   std::uint64_t messages = 0;
 };
 
-/// Times are those of the wall clock, which the record knows to the second of its fault. Ids of senders and keys are texts, modes and
-/// faults come a second time as words, and tracking_error_rad is the setpoint less the position at one instant; a number that is none is
-/// null. Throws InputError for what is no complete record, and when `mcap` cannot be written.
+/// Times are wall-clock times; the record knows the time of its fault to the second. Ids of senders and keys
+/// are texts. Modes and faults are repeated as words. tracking_error_rad is setpoint - position at one
+/// instant. NaN becomes null. Throws InputError for an incomplete record, and when `mcap` cannot be written.
 FlightMcap write_flight_mcap(const std::filesystem::path& file, const std::filesystem::path& mcap);
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was heard on LCM as an MCAP file: each channel of ours a topic, each message JSON. Orders' signatures and gain tables are left
-// out. Not real-time.
+// LCM messages as an MCAP file: each Strainwave channel is a topic, each message is JSON. Signatures of
+// orders and gain tables are left out. Not real-time.
 #pragma once
 
 #include <map>
@@ -13,14 +13,14 @@ namespace strainwave {
 
 class McapLog {
  public:
-  /// Throws InputError when `file` cannot be written; an existing one is replaced.
+  /// Throws InputError when `file` cannot be written. An existing file is replaced.
   explicit McapLog(const std::filesystem::path& file);
 
-  /// One message as LCM delivered it at `received_us` since the epoch. False: it is none of ours, or malformed.
+  /// Takes one message that LCM delivered at `received_us` since the epoch. Returns false if it is malformed or not of Strainwave.
   bool take(const ChannelName& name, const std::string& channel, std::int64_t received_us,
             std::span<const std::uint8_t> data);
 
-  /// Throws InputError when anything was lost.
+  /// Throws InputError when any data was lost.
   void finish() { writer_.finish(); }
   std::uint64_t messages() const noexcept { return writer_.messages(); }
   bool good() const noexcept { return writer_.good(); }

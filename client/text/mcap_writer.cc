@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 
-/// The specification's numbers of the records.
+/// Numbers of the records in the specification.
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -39,7 +39,7 @@ class Content {
       bytes_ += static_cast<char>((std::uint64_t{value} >> (8U * i)) & 0xFFU);
     return *this;
   }
-  /// A byte count, then the bytes: text, and arrays and maps whose entries are bytes already.
+  /// A byte count and the bytes: for text, and for arrays and maps with encoded entries.
   Content& text(std::string_view text) { return number(static_cast<std::uint32_t>(text.size())).raw(text); }
   Content& raw(std::string_view bytes) {
     bytes_ += bytes;
@@ -64,7 +64,7 @@ std::uint32_t crc_of(std::uint32_t crc, std::string_view bytes) {
 }
 
 std::string compressed(std::string_view bytes) {
-  constexpr int kLevel = 3;  // zstd's own default
+  constexpr int kLevel = 3;  // default of zstd
   std::string result(::ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size = ::ZSTD_compress(result.data(), result.size(), bytes.data(), bytes.size(), kLevel);
   if (::ZSTD_isError(size) != 0U) throw InputError(std::string("zstd: ") + ::ZSTD_getErrorName(size));

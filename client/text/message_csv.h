@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as lines of CSV: a field's own name for its column (an array as name_0, name_1, ...). Numbers read
-// back to the same bits; text is quoted. Not real-time.
+// Messages as lines of CSV: each column has the name of its field (an array as name_0, name_1, ...). Numbers
+// read back to the same bits. Text is quoted. Not real-time.
 #pragma once
 
 #include <fmt/format.h>

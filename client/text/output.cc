@@ -13,7 +13,7 @@ void say(const Output& output, const std::string& text, const std::vector<Result
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const auto& [name, value] : fields)
     std::visit([&, key = name](const auto& held) { json[key] = held; }, value);
-  // Names come from a network; what is no UTF-8 must not end the program.
+  // Names come from the network. Invalid UTF-8 must not end the program.
   output.stream << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a command writes what it found or did: a sentence for people, or with --json one object for scripts. Errors travel as
-// exceptions. Not real-time.
+// The output of a command for its results: a sentence for people, or with --json one object for scripts.
+// Errors are exceptions. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace strainwave {
 
 struct Output {
   std::ostream& stream;
-  bool terminal = false;  ///< a person looks at it
+  bool terminal = false;  ///< the stream is a terminal
   bool json = false;
 };
 
-/// Names carry units, as everywhere. A number that is not finite becomes null.
+/// Field names carry units. A number that is not finite becomes null.
 using ResultField =
     std::pair<const char*, std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
                                         std::map<std::string, std::int64_t>>>;
 
-/// Writes one line, at once: `text`, or the fields as a JSON object.
+/// Writes and flushes one line: `text`, or the fields as a JSON object.
 void say(const Output& output, const std::string& text, const std::vector<ResultField>& fields);
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recorded states as CSV: the message's fields under their own names (an array as name_0, name_1, ...), of the weights only
-// those that some state uses, and behind mode and fault their words. Numbers read back to the same bits. Not real-time.
+// Recorded states as CSV: each column has the name of its field (an array as name_0, name_1, ...). Of the weights, only those
+// in use get columns. Mode and fault are followed by their words. Numbers read back to the same bits. Not real-time.
 #pragma once
 
 #include <strainwave/state_v1.hpp>
@@ -8,12 +8,12 @@
 
 namespace strainwave {
 
-/// Weights of `state` that mean something.
+/// Number of weights in use in `state`.
 int weights_in_use(const state_v1& state);
 
-/// Each column with a comma before it; `weights`: the most that any row uses.
+/// Each column with a comma before it. `weights`: the largest number that any row uses.
 std::string state_csv_columns(int weights);
-/// Each value with a comma before it. A weight beyond those of the state is empty.
+/// Each value with a comma before it. Weights that the state does not use are empty.
 std::string state_csv_values(const state_v1& state, int weights);
 
 }  // namespace strainwave

@@ -39,7 +39,7 @@ bool is_degree_mark(std::string_view text) {
   return text == "d" || text.starts_with("deg") || text == "\xC2\xB0";
 }
 
-/// What a number of the state means, for the fields that are codes; else empty.
+/// The meaning of a field in words, if it has any to add; otherwise empty.
 std::string meaning(std::string_view field, const state_v1& state) {
   if (field == "mode") return std::string(to_text(static_cast<Mode>(state.mode)));
   if (field == "fault") return fault_words(static_cast<Fault>(state.fault), state.drive_error);
@@ -67,7 +67,7 @@ std::string meaning(std::string_view field, const state_v1& state) {
   return "";
 }
 
-/// `notes` in lines below a joint's.
+/// `notes` as indented lines below the joint's line.
 std::string indented(const std::string& notes) {
   constexpr std::size_t kIndent = 2;
   std::string text;
@@ -138,7 +138,7 @@ std::string temperature_text(double temperature_C) {
 }
 
 std::size_t name_columns(const std::vector<JointName>& names) {
-  std::size_t columns = 12;  // of a usual name
+  std::size_t columns = 12;  // width for common names
   for (const JointName& name : names) columns = std::max(columns, display_name(name, names).size());
   return columns;
 }

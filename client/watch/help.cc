@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kHelpIndent = 13;  // where the words about a key begin
+constexpr std::size_t kHelpIndent = 13;  // column of the explanation of a key
 
 constexpr std::array<std::string_view, 21> kHelp{
     "up, down     select a joint",
@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, 21> kHelp{
     "commands are signed with --key FILE; without it, a daemon may refuse them",
 };
 
-/// `kHelp` in lines of `columns`; what is about a key stands below itself.
+/// `kHelp` in lines of `columns`. The explanation of a key wraps under itself.
 std::vector<std::string> help_lines(std::size_t columns) {
   std::vector<std::string> lines;
   for (const std::string_view entry : kHelp) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of watch and what it shows, in words. Not real-time.
+// The help text of watch: its keys and its columns. Not real-time.
 #pragma once
 
 #include "client/watch/screen.h"
 
 namespace strainwave {
 
-/// Into rows [`first`, `end`). What a small terminal has no room for is left out, and it says so.
+/// Draws the help into the rows [`first`, `end`). On a small terminal the last line says that the rest is left out.
 void draw_help(Screen& screen, int first, int end);
 
 }  // namespace strainwave

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What watch has seen of a joint over time. Not real-time.
+// The recent values of a joint in watch. Not real-time.
 #pragma once
 
 #include <deque>
@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Over time, the latest last; not a number where the joint was silent.
+/// Values over time, the latest last. NaN while the joint was silent.
 struct WatchHistory {
   std::deque<double> position_rad;
   std::deque<double> error_rad;
@@ -16,8 +16,8 @@ struct WatchHistory {
   std::deque<double> temperature_C;
 };
 
-/// Adds what the joint says now, and forgets the oldest. What a joint said that is silent is not what it does: `age_s` is that of the
-/// state.
+/// Adds the values of the latest state, and forgets the oldest ones. A state older than kStateSilence_s
+/// counts as silence, because its values may be outdated. `age_s`: age of the state.
 void remember(const JointView& view, double age_s, WatchHistory& history);
 
 }  // namespace strainwave

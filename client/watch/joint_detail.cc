@@ -22,16 +22,16 @@ constexpr int kLabelWidth = 13;
 constexpr int kLeastPlotHeight = 3;
 constexpr int kTwoPlotsAbreast = 100;  // columns
 constexpr std::size_t kRefusalsShown = 3;
-constexpr std::size_t kLatestRefusal = 5;  // lines: as long as a reason of the daemon's is in 80 columns
+constexpr std::size_t kLatestRefusal = 5;  // lines for the longest reason of the daemon, in 80 columns
 constexpr std::size_t kOlderRefusals = 1;
 
-/// Writes lines one below the other as long as there is room.
+/// Writes lines from top to bottom while there is room.
 class Lines {
  public:
   Lines(Screen& screen, int first, int end) : screen_(screen), row_(first), end_(end) {}
   int row() const { return row_; }
 
-  /// Breaks at blanks, into `most` lines; what follows stands under `label`'s text.
+  /// Breaks the text at spaces, into at most `most` lines. Further lines are aligned with the text, not with `label`.
   void put(std::string_view label, const std::string& text, Style style = Style::kPlain,
            std::size_t most = 3) {
     constexpr int kIndent = 9;
@@ -84,7 +84,7 @@ std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
                         temperature_source(joint)));
 }
 
-/// What the daemon has refused since its start, from anybody.
+/// The orders that the daemon has refused since its start, from any client.
 std::string rejects_text(const WatchModel& model, const WatchedJoint& joint) {
   std::string text;
   for (const WatchedDaemon& daemon : model.daemons) {
@@ -121,7 +121,7 @@ struct Curve {
   const std::deque<double>* values;
   double least_span;
   bool with_zero;
-  std::optional<int> decimals;  ///< none: two digits and an exponent
+  std::optional<int> decimals;  ///< no value: two digits and an exponent
 };
 
 std::string scale_text(const Curve& curve, double value) {
@@ -154,7 +154,7 @@ void draw_plots(const WatchModel& model, const WatchedJoint& joint, Screen& scre
   }};
   const int abreast = screen.columns() >= kTwoPlotsAbreast ? 2 : 1;
   const int width = (screen.columns() - (abreast - 1)) / abreast;
-  // One line says what the time axis spans.
+  // One row is for the label of the time axis.
   const int rows = end - first - 1;
   const int stacked = std::min(static_cast<int>(curves.size()) / abreast, rows / kLeastPlotHeight);
   if (stacked < 1 || width < kLabelWidth + 10) return;
@@ -173,7 +173,7 @@ PlotSpans plot_spans(const WatchedJoint& joint) {
   PlotSpans spans;
   if (!joint.limits) return spans;
   const limits_v1& limits = *joint.limits;
-  // Of the limits, what an operator would call nothing.
+  // Shares of the limits that an operator regards as negligible.
   if (limits.following_error_rad > 0.0) spans.error_rad = 0.01 * limits.following_error_rad;
   if (limits.torque_limit_Nm > 0.0) spans.torque_Nm = 0.1 * limits.torque_limit_Nm;
   if (limits.position_max_rad > limits.position_min_rad)

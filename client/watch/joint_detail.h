@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower part of the watch screen: everything about the selected joint, and its last minutes. Pure. Not real-time.
+// The lower part of the watch screen: details of the selected joint, and plots of its recent values. Pure. Not real-time.
 #pragma once
 
 #include "client/watch/view.h"
 
 namespace strainwave {
 
-/// Fills the rows from `first` to before `end`, or as many of them as there is something to say.
+/// Fills the rows [`first`, `end`), or fewer if there is less to show.
 void draw_detail(const WatchModel& model, const WatchedJoint& joint, Screen& screen, int first, int end);
 
-/// What error, torque, position and temperature must at least span in a plot: a share of the joint's own limits.
+/// The smallest spans of the plots, as shares of the joint's limits.
 struct PlotSpans {
   double error_rad = 1e-4;
   double torque_Nm = 1.0;

@@ -19,14 +19,14 @@ namespace strainwave {
 namespace {
 
 constexpr int kSparkWidth = 12;
-constexpr int kNotesWidth = 17;  // room for notes before the least important column
-constexpr int kNameWidth = 12;   // of a column of short names
+constexpr int kNotesWidth = 17;  // width of the notes, which displace less important columns
+constexpr int kNameWidth = 12;   // width of a column of short names
 
 /// One column of the table of joints.
 struct Column {
   std::string_view title;
   int width;
-  int rank;  ///< higher ones go first when the terminal is narrow
+  int rank;  ///< on a narrow terminal the highest ranks are removed first
   std::string (*cell)(const WatchModel&, const WatchedJoint&);
 };
 
@@ -65,7 +65,7 @@ const std::array<Column, 10> kColumns{{
      }},
 }};
 
-/// Names of joints are told apart, however long: half of the screen for them if need be.
+/// Wide enough to distinguish long names, but at most half of the screen.
 int name_width(const WatchModel& model, int columns) {
   std::size_t longest = kNameWidth;
   for (const WatchedJoint& joint : model.joints) longest = std::max(longest, name_of(model, joint).size());
@@ -86,7 +86,7 @@ std::vector<Column> fitting_columns(const WatchModel& model, int columns) {
   return chosen;
 }
 
-/// Beginning and end of a name that is too long.
+/// The beginning and the end of a name that is too long.
 std::string elided(const std::string& name, std::size_t width) {
   if (name.size() <= width || width < 4) return name.substr(0, width);
   const std::size_t end = (width - 2) / 2;

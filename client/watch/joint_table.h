@@ -6,8 +6,8 @@
 
 namespace strainwave {
 
-/// A title and up to `count` - 1 joints, from row `first` on. The selected joint stays in sight. Columns that do not fit are left out,
-/// the most important ones stay.
+/// Draws a title and up to `count` - 1 joints, from row `first` on. The selected joint stays visible. On a
+/// narrow screen the less important columns are left out.
 void draw_joints(const WatchModel& model, Screen& screen, int first, int count);
 
 }  // namespace strainwave

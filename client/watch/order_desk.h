@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders from the watch screen, to joints of any daemon: sent, repeated and answered while the screen goes
-// on. Not real-time.
+// Sends orders from the watch screen to joints of any daemon. They are repeated and answered while the screen
+// continues. Not real-time.
 #pragma once
 
 #include <deque>
@@ -21,23 +21,23 @@ class OrderDesk {
  public:
   using Name = OpenOrders::Name;
 
-  /// `states`: where the newest of each joint is, which its orders quote. `timeout_s`: how long an order is repeated before its
-  /// silence is reported.
+  /// `states` holds the newest state of each joint, which the orders quote. An order without an answer is
+  /// repeated for `timeout_s` and then reported.
   OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
             double timeout_s);
 
-  /// A disable of each, signed if that is possible and unsigned if not: a wrong key or session does not keep it back,
-  /// and forged messages do not stop its answer. Of several, the message counts the answers and names who did not give one.
+  /// Disables each joint. The stop is signed if possible, otherwise unsigned: a wrong key or session does not hold it back. Forged
+  /// messages do not stop its answer. For several joints the message counts the acceptances and names the joints that did not accept.
   void stop(const std::vector<Name>& joints);
-  /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since another program of this
-  /// key was ahead, is sent with a higher sequence, a few times. To clear a fault that is not there is not sent.
+  /// The order is signed if there is a key. Throws InputError when the key cannot be used. If another program with this key was
+  /// ahead, the order is sent again with a higher sequence, a few times. An order to clear a fault is not sent if there is none.
   void order(const Name& joint, Action action);
   void move(const Name& joint, double position_rad);
 
-  /// Repeats what was not answered. Call often.
+  /// Repeats unanswered orders. Call it often.
   void tick() { orders_.tick(); }
 
-  /// What there is to say, the latest: "SW.elbow: enable accepted". Nothing any more ten seconds later, when it need not be true.
+  /// The latest message: "SW.elbow: enable accepted". It is empty ten seconds after the last answer, when it may be outdated.
   std::string message(Instant at = now()) const;
   bool alarm() const noexcept { return alarm_; }
 
@@ -45,14 +45,14 @@ class OrderDesk {
     Instant when;
     std::string text;
   };
-  /// Refusals and silences, the latest first, a few.
+  /// Recent refusals and unanswered orders, the latest first.
   const std::deque<Refusal>& refusals() const noexcept { return refusals_; }
 
  private:
-  /// What was asked for at once, of one or several joints.
+  /// One request, for one or several joints.
   struct Batch {
     std::string what;
-    std::string whose;  ///< the joint's name, or how many
+    std::string whose;  ///< the joint's name, or the number of joints
     std::size_t joints = 0;
     std::size_t accepted = 0;
     std::vector<std::string> failures;
@@ -71,7 +71,7 @@ class OrderDesk {
   OpenOrders orders_;
   double timeout_s_;
   std::string message_;
-  Instant said_{};  ///< when `message_` was
+  Instant said_{};  ///< time of `message_`
   bool alarm_ = false;
   std::deque<Refusal> refusals_;
   Subscription acknowledgements_;

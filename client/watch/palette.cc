@@ -5,7 +5,7 @@ namespace strainwave {
 
 namespace {
 
-// xterm's numbers. The middle grey and the middle green reach a contrast of 4.5 to 1 (WCAG 2.1, AA) on black and on white.
+// Colour numbers of xterm. The middle grey and the middle green reach a contrast of 4.5 to 1 (WCAG 2.1, AA) on black and on white.
 constexpr int kBlack = 0;
 constexpr int kRed = 1;
 constexpr int kYellow = 3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each style looks like. One palette that is read on light and on dark terminals: what stands on the terminal's own
-// background has a middle tone, what must be seen brings its background with it. Not real-time.
+// The appearance of each style. One palette serves light and dark terminals: text on the terminal's
+// background has a middle tone, and important text has its own background. Not real-time.
 #pragma once
 
 #include "client/watch/screen.h"
@@ -9,7 +9,7 @@ namespace strainwave {
 
 enum class Colours { kNone, kEight, kMany };  ///< kMany: the 256 of xterm
 
-/// Colours by their numbers in xterm; -1 is the terminal's own.
+/// Colours by their numbers in xterm; -1 is the terminal's default.
 struct Paint {
   int foreground = -1;
   int background = -1;
@@ -18,7 +18,7 @@ struct Paint {
   bool underlined = false;
 };
 
-/// Every style differs from every other, with any number of colours.
+/// The styles are distinct with any number of colours, except that kPlain and kGood may look alike.
 Paint paint_of(Style style, Colours colours) noexcept;
 
 }  // namespace strainwave

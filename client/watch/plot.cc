@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kBars{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 constexpr std::string_view kAsciiBars = ".:-=+*%#";
-constexpr int kDotsAcross = 2;  // of a braille pattern
+constexpr int kDotsAcross = 2;  // in a braille pattern
 constexpr int kDotsDown = 4;
 
 std::string bar(double share, bool unicode) {
@@ -37,7 +37,7 @@ class Dots {
     return dots_[static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) +
                  static_cast<std::size_t>(x)];
   }
-  /// Between two heights, both included.
+  /// Fills a column between two heights, both included.
   void column(int x, int from, int to) {
     for (int y = std::min(from, to); y <= std::max(from, to); ++y)
       dots_[static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(x)] =

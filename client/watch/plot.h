@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values over time in characters. Pure. Not real-time.
+// Plots of values over time, made of characters. Pure. Not real-time.
 #pragma once
 
 #include <deque>
@@ -14,13 +14,13 @@ struct PlotScale {
   double high = 1.0;
 };
 
-/// Holds the last `count` finite values, and 0 if `with_zero`; at least `least_span` wide, so that noise does not fill the plot.
+/// Holds the last `count` finite values, and 0 if `with_zero`. It is at least `least_span` wide, so that noise does not fill the plot.
 PlotScale scale_of(const std::deque<double>& values, std::size_t count, double least_span, bool with_zero);
 
-/// |values| as bars, the latest last, at most `width` of them; a full bar is the largest one, but at least `least_full`.
+/// |values| as bars, the latest last, at most `width` of them. A full bar is the largest value, but at least `least_full`.
 std::string sparkline(const std::deque<double>& values, int width, double least_full, bool unicode);
 
-/// How many values fit into `width` characters: two in each of Unicode's braille patterns.
+/// Number of values in `width` characters: two per character with Unicode's braille patterns.
 std::size_t plot_capacity(int width, bool unicode);
 
 /// `height` lines of `width` characters with the latest values at the right.

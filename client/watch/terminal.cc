@@ -21,7 +21,7 @@ SCREEN* opened = nullptr;
 constexpr std::array kStyles{Style::kPlain, Style::kDim,     Style::kTitle,
                              Style::kGood,  Style::kWarning, Style::kAlarm};
 
-/// What the terminal has; NO_COLOR is how its user says none (no-color.org).
+/// The colours of the terminal. A user can refuse colours with NO_COLOR (no-color.org).
 Colours available_colours() {
   const char* const refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): one thread
   if (!has_colors() || (refused != nullptr && *refused != '\0')) return Colours::kNone;
@@ -48,7 +48,7 @@ attr_t attributes(const Cell& cell, Colours colours) {
 Terminal::Terminal() {
   std::setlocale(LC_CTYPE, "");  // NOLINT(concurrency-mt-unsafe): one thread
   unicode_ = std::string_view(::nl_langinfo(CODESET)) == "UTF-8";  // NOLINT(concurrency-mt-unsafe)
-  // Not initscr(): that ends the program when the terminal is not known.
+  // initscr() would end the program on an unknown terminal.
   opened = ::newterm(nullptr, stdout, stdin);
   if (opened == nullptr)
     throw ClientError(ExitStatus::kUsage,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The terminal, by ncurses: the only file that knows it. Not real-time.
+// The terminal, through ncurses, which only this class uses. Not real-time.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace strainwave {
 
-/// Takes the whole terminal as long as it lives.
+/// Uses the whole terminal during its lifetime.
 class Terminal {
  public:
   enum class Key { kUp, kDown, kResize, kOther };
   struct Press {
     Key key = Key::kOther;
-    char character = '\0';  ///< kOther: the character, 0 for none that we know
+    char character = '\0';  ///< the character of kOther, 0 if unknown
   };
 
-  /// Throws ClientError (usage) when the terminal cannot be used that way.
+  /// Throws ClientError (usage) when the terminal does not support a full screen.
   Terminal();
   ~Terminal();
   Terminal(const Terminal&) = delete;
@@ -28,7 +28,7 @@ class Terminal {
   int columns() const;
   bool unicode() const noexcept { return unicode_; }
   void show(const Screen& screen);
-  /// The next key that was pressed, or nothing; does not wait.
+  /// Returns the next key that was pressed, if any. It does not wait.
   std::optional<Press> read();
 
  private:

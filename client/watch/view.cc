@@ -21,9 +21,9 @@ namespace strainwave {
 namespace {
 
 constexpr double kDaemonSilence_s = 3.0;  // TIMING comes once a second
-constexpr int kLeastDetail = 10;          // rows below the joints that are worth drawing
+constexpr int kLeastDetail = 10;          // rows below the joints that suffice for details
 
-/// The first part, and of the others as many as fit as a whole.
+/// The first part, and as many of the others as fit completely.
 template <std::size_t kCount>
 std::string fitting(const std::array<std::string, kCount>& parts, std::string_view between, int columns) {
   std::string line;
@@ -51,7 +51,7 @@ void draw_daemon(const WatchedDaemon& daemon, Screen& screen, int row) {
   screen.put_fitting(row, 0, fitting(parts, ", ", screen.columns()), silent ? Style::kAlarm : Style::kPlain);
 }
 
-/// The keys, the most important first, as many as fit.
+/// As many keys as fit, the most important ones first.
 std::string keys(const WatchModel& model, int columns) {
   const std::array<std::string, 9> all{
       "s stop",        "S stop all", "? help",  "q quit",
@@ -67,7 +67,7 @@ void draw_body(const WatchModel& model, Screen& screen, int first, int end) {
   }
   const int rows = end - first;
   const int wanted = static_cast<int>(model.joints.size()) + 1;
-  // Half of the screen for the joints at most, if the other half can show something.
+  // The table takes half of the screen at most, if the other half has room for details.
   const int table = rows >= 2 * kLeastDetail ? std::min(wanted, rows / 2)
                                              : std::min(wanted, std::max(2, rows - kLeastDetail));
   draw_joints(model, screen, first, table);
@@ -76,7 +76,7 @@ void draw_body(const WatchModel& model, Screen& screen, int first, int end) {
                 end);
 }
 
-/// Who needs somebody, on the screen or not.
+/// Joints with an alarm, whether the screen shows them or not.
 std::vector<std::string> troubled(const WatchModel& model) {
   std::vector<std::string> names;
   for (const WatchedJoint& joint : model.joints)
@@ -84,7 +84,7 @@ std::vector<std::string> troubled(const WatchModel& model) {
   return names;
 }
 
-/// As many of `names` as fit, one at least, and how many more there are.
+/// As many of `names` as fit, at least one, and the number of the others.
 std::string alarm(const std::vector<std::string>& names, int columns) {
   const auto naming = [&](std::size_t shown) {
     std::string text =
@@ -97,7 +97,7 @@ std::string alarm(const std::vector<std::string>& names, int columns) {
   return naming(shown);
 }
 
-/// An alarm stands before everything else: a narrow terminal cuts what is behind it.
+/// An alarm comes first, because a narrow terminal cuts the end of the line.
 void draw_title(const WatchModel& model, Screen& screen) {
   const std::string counts =
       fmt::format("{} of {}", counted(model.joints.size(), "joint"), counted(model.daemons.size(), "daemon"));
@@ -143,12 +143,12 @@ Screen render(const WatchModel& model, int rows, int columns) {
   }
   draw_title(model, screen);
   int row = 1;
-  // A third of the screen at most: the joints matter more.
+  // The daemons take a third of the screen at most, because the joints matter more.
   const int daemon_rows =
       model.help ? 0 : std::min(static_cast<int>(model.daemons.size()), std::max(1, rows / 3 - 1));
   for (int i = 0; i < daemon_rows; ++i)
     draw_daemon(model.daemons[static_cast<std::size_t>(i)], screen, row++);
-  // As long as the daemon's reasons are; a sixth of the screen at most.
+  // The message has room for the daemon's reason, but takes a sixth of the screen at most.
   const std::vector<std::string> message =
       wrapped(model.message, static_cast<std::size_t>(columns),
               static_cast<std::size_t>(model.help ? 1 : std::max(1, rows / 6)));

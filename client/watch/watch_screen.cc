@@ -15,7 +15,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kKeyDelay_s = 0.05;  // keys are looked for this often
+constexpr double kKeyDelay_s = 0.05;  // interval between checks of the keyboard
 
 /// Steps of the jog keys, in rad.
 constexpr std::array kJogSteps_rad{0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01,
@@ -64,7 +64,7 @@ class WatchScreen {
            std::ranges::find(arguments_.joints, joint) != arguments_.joints.end();
   }
 
-  /// What is known now. The selected joint stays selected when others come before it.
+  /// Takes the present data. The selected joint stays selected when other joints appear before it.
   void sample() {
     std::vector<WatchedJoint> joints;
     for (const std::string& prefix : client_.states().prefixes()) {
@@ -156,7 +156,7 @@ class WatchScreen {
     if (const WatchedJoint* joint = selected()) desk_.order({joint->prefix, joint->joint}, action);
   }
 
-  /// From where the joint was sent last, so that several presses add up.
+  /// Moves from the last target of the joint, so that several presses add up.
   void jog(double direction) {
     if (const WatchedJoint* joint = selected())
       desk_.move({joint->prefix, joint->joint},
@@ -171,7 +171,7 @@ class WatchScreen {
   LatestMessages<Latest<limits_v1>> limits_;
   OrderDesk desk_;
   WatchModel model_;
-  std::size_t jog_ = 6;  ///< of kJogSteps_rad
+  std::size_t jog_ = 6;  ///< index into kJogSteps_rad
   bool quit_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The full-screen watch: listens, draws, obeys keys. Not real-time.
+// The full-screen watch: receives states, draws them, and reacts to keys. Not real-time.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 namespace strainwave {
 
 struct WatchArguments {
-  std::vector<std::string> joints;  ///< empty: all that are heard
+  std::vector<std::string> joints;  ///< empty: all joints heard
   double interval_s = 0.2;
-  std::optional<double> duration_s;  ///< nothing: until interrupted
+  std::optional<double> duration_s;  ///< no value: until interrupted
   bool plain = false;                ///< lines instead of the full screen
 };
 
-/// Until q, an interrupt or the arguments' duration. Needs a terminal.
+/// Runs until q, an interrupt or the end of the duration. Needs a terminal.
 void watch_screen(Client& client, const WatchArguments& arguments);
 
 }  // namespace strainwave

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Strainwave's joints from Python: orders that are signed, acknowledged and repeated, streams of setpoints, states with names.
+"""Strainwave's joints from Python: signed orders that are repeated until they are acknowledged, streams of setpoints, named states.
 
     joint = Joint("elbow", key="~/.strainwave-key")       # and enable(), move(0.5), hold(), disable(), home(), state, limits, states()
     path = Path({joint: [(0, 0, 0), (1, 0.4, 0)]})        # knots (time_s, position_rad, velocity_rad_s); start(), wait(), pause(), resume()
     with joint.stream() as stream:                        # a Stream: put() again and again, close() at its end
         stream.put(t, position_rad, velocity_rad_s)
 
-All that fails is a StrainwaveError: InvalidInput (refused here), NoAnswer (silence), Refused (by the daemon, with its reason), Faulted,
-NotDone (accepted, but it did not come to its end) and Yielded (a NotDone: to a load). Each says what was given, what is allowed and what to do.
+Every error is a StrainwaveError: InvalidInput (refused here), NoAnswer (silence), Refused (by the daemon, with its reason), Faulted,
+NotDone (accepted, but not completed) and Yielded (a NotDone: the joint yielded to a load). Each names the value, the allowed range and the remedy.
 
-Pure Python; signing needs libsodium. docs/client.md has examples, docs/messages.md every field. The message types (state_v1, ...) are
-those that lcm-gen makes, for programs that speak LCM themselves.
+Pure Python; signing needs libsodium. docs/client.md has examples, docs/messages.md every field. lcm-gen makes the
+message types (state_v1, ...), for programs that use LCM directly.
 """
-# The types first: they look for each other here.
+# The types come first, because they import each other from this package.
 from .ack_v1 import ack_v1
 from .command_v1 import command_v1
 from .box_cell_v1 import box_cell_v1

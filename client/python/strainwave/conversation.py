@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A conversation with one joint of a daemon: hears its state, sends an order, repeats it until it is acknowledged.
+"""A conversation with one joint of a daemon: receives its state, sends an order, repeats it until it is acknowledged.
 Source: client/protocol/client.h, pending_order.h; docs/commands.md.
 """
 import collections
@@ -13,31 +13,31 @@ from .network import now_s
 from .state_v1 import state_v1
 from .vocabulary import Reason
 
-ATTEMPTS = 3  # how often an order is sent with another sequence, when another program of its key was ahead
-TRANSMISSIONS = 4  # of the identical message in an order's lifetime, until it is answered; of one that fits into a packet
+ATTEMPTS = 3  # with a higher sequence each, when another program with the same key was ahead
+TRANSMISSIONS = 4  # of an unanswered message per lifetime of an order, if it fits into one packet
 STOP_TRANSMISSIONS = 8  # of a stop
-STOP_PATIENCE_S = 4.0  # at the least: longer than the daemon takes to replace a gateway that hangs
-_PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
+STOP_PATIENCE_S = 4.0  # at least; longer than the daemon needs to replace a hung gateway
+_PACKET_BYTES = 1472  # Ethernet's 1500 less the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
-_GONE_S = 2.5  # whose last state is older has gone, as far as anybody can tell
-_SILENCE_S = 0.5  # states come ten times a second at the least
-_OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
-_LARGEST_CYCLE = 2**62  # no daemon comes near it; with a sample's time it yet fits into a message
-_PERIODS_S = (1e-6, 1.0)  # wider than those of any daemon
+_GONE_S = 2.5  # a joint with an older last state counts as gone
+_SILENCE_S = 0.5  # states come at least ten times a second
+_OLD_STATE_S = 0.5  # well below the second after which the daemon refuses an order that quotes the state
+_LARGEST_CYCLE = 2**62  # above any real cycle; leaves room in a message for later arithmetic
+_PERIODS_S = (1e-6, 1.0)  # wider than the range of any daemon
 _ORDER_LIFETIME_S = 1.0  # from the call to the state that the order quotes
-_SETTLES_S = 0.2  # after a stop or a fault the next state or the one after it has a new challenge
+_SETTLES_S = 0.2  # after a stop or a fault, one of the next two states has a new challenge
 
 
 def most_transmissions(message_bytes, timeout_s):
-    """Of a message of so many bytes, in each lifetime of an order: a later repetition cannot replace what was lost. It is lost with any one of
-    the packets that Ethernet cuts it into."""
+    """Number of transmissions of a message of this size. The daemon refuses repetitions older than an order's lifetime, so each lifetime has its
+    own. Each Ethernet packet adds one, because the loss of any packet loses the message."""
     packets = max(1, -(-message_bytes // _PACKET_BYTES))
     return (TRANSMISSIONS + packets - 1) * max(1, math.ceil(timeout_s / _ORDER_LIFETIME_S))
 
 
 class CycleClock:
-    """Which cycle the daemon is in, from the states that came: the one that travelled least long tells most."""
+    """Estimates the daemon's current cycle from received states. The state with the shortest travel time gives the estimate."""
 
     def __init__(self):
         self._heard = collections.deque(maxlen=_CLOCK_STATES)
@@ -49,27 +49,27 @@ class CycleClock:
         self._heard.append((cycle, received_s))
 
     def cycle_at(self, time_s, period_s):
-        """As a real number; at least one state must have come."""
+        """The cycle at `time_s` as a real number. At least one state must have been received."""
         return max(cycle + (time_s - received_s) / period_s for cycle, received_s in self._heard)
 
 
 class Conversation:
-    """What is heard of one joint, and orders to it. Every wait ends after `timeout_s`."""
+    """The messages of one joint, and orders to it. Every wait ends after `timeout_s`."""
 
     def __init__(self, network, prefix, joint, sender, timeout_s):
         self.network, self.prefix, self.joint, self.sender, self.timeout_s = network, prefix, joint, sender, timeout_s
         self.state = None  # the latest state_v1
         self.received_s = 0.0
-        self.is_behind = False  # the latest state came a while before this program took it: it stood still, and newer ones follow
-        self._misunderstood = False  # the last state
+        self.is_behind = False  # the program was stalled: the latest state waited for a while, and newer ones follow
+        self._misunderstood = False  # whether the last state could not be decoded
         self.messages = 0
         self.limits = None  # the latest limits_v1
         self.clock = CycleClock()
-        self._stopped = 0  # messages that had come when our last stop was answered
-        self._fault_challenge = None  # of the state that showed the last fault first
+        self._stopped = 0  # number of states received when the last stop was answered
+        self._fault_challenge = None  # of the first state with the last fault
         self._inboxes = []
-        self._awaited = {}  # acknowledgements by sequence; None: not yet
-        self._sent = collections.deque(maxlen=256)  # sequences of what send() sent
+        self._awaited = {}  # acknowledgements by sequence; None: not received yet
+        self._sent = collections.deque(maxlen=256)  # sequences of the latest messages of send()
         self._refusals = collections.deque(maxlen=16)
         for kind, method in (("STATE", self._on_state), ("LIMITS", self._on_limits), ("ACK", self._on_ack)):
             network.listen(self.channel(kind), method)
@@ -78,21 +78,21 @@ class Conversation:
         return f"{self.prefix}.{self.joint}.{kind}"
 
     def require_same_daemon(self, other, who_are):
-        """Raises InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles."""
+        """Raises InvalidInput unless both joints belong to the same daemon, because each daemon counts its own cycles."""
         if self.prefix != other.prefix:
             raise InvalidInput(f"{self.joint} has prefix {self.prefix}, {other.joint} has {other.prefix}: {who_are} of one daemon")
         if self.network.url != other.network.url:
             raise InvalidInput(f"{self.joint} is on {self.network.url}, {other.joint} on {other.network.url}: {who_are} of one daemon")
 
     def wait_for_state(self):
-        """The latest state; waits for the first. Raises NoAnswer that says what is heard instead."""
+        """The latest state; waits for the first. Raises NoAnswer that lists the joints heard instead."""
         if not self.network.wait_until(lambda: self.state is not None, self.timeout_s):
             raise NoAnswer(self._silence())
         return self.state
 
     def heard_state(self):
-        """The latest state, as wait_for_state(). Raises NoAnswer, too, when none came for longer than `timeout_s`: not where this program
-        itself stood still, and what came meanwhile waits to be taken."""
+        """The latest state, as wait_for_state(). Raises NoAnswer also when none came for longer than `timeout_s`. If this program
+        was stalled, it first takes the states that arrived in the meantime."""
         self.wait_for_state()
         seen = self.messages
         if now_s() - self.received_s > self.timeout_s and not self.network.wait_until(lambda: self.messages > seen, _OLD_STATE_S):
@@ -100,7 +100,7 @@ class Conversation:
         return self.state
 
     def open_inbox(self):
-        """A queue that gets every state from now on, with when it came; the oldest are lost when they are not taken."""
+        """A queue that gets every state from now on, with its time of receipt. If it is full, the oldest are lost."""
         inbox = collections.deque(maxlen=_INBOX)
         with self.network.changed:
             self._inboxes.append(inbox)
@@ -113,9 +113,9 @@ class Conversation:
             self.network.read_wholly[self.channel("STATE").encode()] -= 1
 
     def deciding_state(self):
-        """The state that an order of now is decided on, which it quotes whatever becomes of it: so the daemon refuses it once it is a second
-        old, or the joint was stopped or has faulted since. A stop of ours and a fault end what states told before. Raises NoAnswer as
-        wait_for_state(), and NotDone where this program stood still meanwhile: an order is none of what happened then.
+        """The state on which a new order is based. The order and its repetitions quote it. The daemon refuses the order if the state is over
+        a second old, or if the joint stopped or faulted since. So this waits until the state is newer than a stop or a fault. Raises NoAnswer
+        as wait_for_state(), and NotDone if this program was stalled meanwhile, because the caller has not seen the events of that time.
         """
         begin_s, patience_s = now_s(), _ORDER_LIFETIME_S + (self.timeout_s if self.state is None else 0)
         self.wait_for_state()
@@ -127,8 +127,8 @@ class Conversation:
         return state
 
     def request(self, kind, message, order, prepare=None, hint="", state=None):
-        """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
-        `hint`: what to say besides of what is out of range; `state`: its deciding_state(), None: that of now. Raises Refused, NoAnswer.
+        """Sends an order and requires its acceptance. `order`: in words; `prepare`: called with the message before every attempt.
+        `hint`: added to the error for a value out of range; `state`: its deciding_state(), None: the present one. Raises Refused, NoAnswer.
         """
         state = self.deciding_state() if state is None else state
         for attempt in range(ATTEMPTS):
@@ -149,7 +149,7 @@ class Conversation:
         raise Refused(self.joint, order, reason, text_of(answer.text), hint if reason == Reason.OUT_OF_RANGE else "")
 
     def request_stop(self, kind, message, order):
-        """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
+        """The same for a stop: it does not wait for a state. If no answer comes, the error says that the stop was sent."""
         transmissions = STOP_TRANSMISSIONS * max(1, math.ceil(self.timeout_s / STOP_PATIENCE_S))
         answer = self._exchange(kind, message, self.state, transmissions, max(self.timeout_s, STOP_PATIENCE_S))
         self._stopped = self.messages
@@ -160,7 +160,7 @@ class Conversation:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
 
     def send(self, kind, message):
-        """Once: one of a stream. A refusal of it is for take_refusal(). Raises NoAnswer of a joint that has fallen silent."""
+        """Sends a message of a stream once. take_refusal() returns its refusal, if any. Raises NoAnswer if the joint has become silent."""
         state = self.heard_state()
         channel = self.channel(kind)
         encoded = self.sender.seal(channel, message, state)
@@ -174,7 +174,7 @@ class Conversation:
 
     def take_refusal(self):
         """(Reason, text, overtaken) of the oldest refusal of a message of send() that was not yet taken, or None. Overtaken: a later
-        one of send() came to the daemon before it."""
+        message of send() arrived at the daemon first."""
         with self.network.changed:
             if not self._refusals:
                 return None
@@ -183,7 +183,7 @@ class Conversation:
         return Reason(ack.reason), text_of(ack.text), overtaken
 
     def forget_sent(self):
-        """Answers to what send() sent before are dropped."""
+        """From now on ignores answers to earlier messages of send()."""
         with self.network.changed:
             self._sent.clear()
             self._refusals.clear()
@@ -236,12 +236,12 @@ class Conversation:
             self._refusals.append(ack)
 
     def silence(self):
-        """"no state for 3.2 s" where none came for half a second, or for the time-out if that is less; else empty."""
+        """"no state for 3.2 s" after half a second without a state, or after the time-out if that is less; otherwise empty."""
         silent_s = now_s() - self.received_s
         return f"no state for {silent_s:.1f} s" if silent_s >= min(_SILENCE_S, self.timeout_s) else ""
 
     def fell_silent(self, what):
-        """The NoAnswer of a joint that did; what: how that is to be called."""
+        """The NoAnswer for a joint that has become silent. `what` describes the failure in words."""
         return NoAnswer(": ".join(part for part in (self.joint, what, self.silence()) if part))
 
     def _why_no_answer(self):

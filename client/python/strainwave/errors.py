@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can go wrong, as exceptions. Each says what was given, what is allowed or what the daemon answered, and what to do."""
+"""The exceptions. Each names the given value, the allowed range or the daemon's answer, and the remedy."""
 import reprlib
 
 
 def shown(value):
-    """What was given, for an error: short, and of anything. repr() refuses a number of more than 4300 digits."""
+    """A short text of any value for an error message. repr() refuses a number of more than 4300 digits."""
     try:
         return reprlib.repr(value)
     except Exception:
@@ -12,9 +12,9 @@ def shown(value):
 
 
 class StrainwaveError(Exception):
-    """Any of the following.
+    """Base class of the following.
 
-    each: of several joints the error of each that was stopped; all else of this one is of the first. Of one joint it is empty.
+    each: for several joints the errors of all stopped joints; the other attributes belong to the first. For one joint it is empty.
     """
 
     each = ()
@@ -31,7 +31,7 @@ class NoAnswer(StrainwaveError, TimeoutError):
 class Refused(StrainwaveError):
     """The daemon answered and refused.
 
-    joint, order: what was asked of whom, in words; reason: Reason; text: the daemon's own words, with the numbers that led to it.
+    joint, order: the joint and the refused order, in words; reason: Reason; text: the daemon's explanation with numbers.
     """
 
     def __init__(self, joint, order, reason, text="", hint=""):
@@ -41,7 +41,7 @@ class Refused(StrainwaveError):
 
 
 class Faulted(StrainwaveError):
-    """The joint has a latched fault. fault: Fault; `words`: its text, with the cause where that is known."""
+    """The joint has a latched fault. fault: Fault; `words`: its text, with the cause if known."""
 
     def __init__(self, joint, fault, words=""):
         super().__init__(f"{joint}: faulted ({int(fault)}: {words or fault.text}); once the cause is gone: Joint.clear_fault()")
@@ -49,13 +49,13 @@ class Faulted(StrainwaveError):
 
 
 class NotDone(StrainwaveError):
-    """An order that was accepted did not come to its end: another replaced it, the joint was disabled, it holds elsewhere."""
+    """An accepted order was not completed: another order replaced it, the joint was disabled, or it holds elsewhere."""
 
 
 class Yielded(NotDone):
     """The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests.
 
-    load_Nm: above 0 pushes towards negative positions; limit_Nm: what load was allowed; position_rad: where the joint was.
+    load_Nm: > 0 pushes towards negative positions; limit_Nm: the allowed load; position_rad: the joint's position then.
     """
 
     def __init__(self, joint, message, load_Nm, limit_Nm, position_rad):

@@ -19,12 +19,12 @@ _ENABLED = (Mode.HOLDING, Mode.TRACKING, Mode.HOMING)
 
 
 class Joint:
-    """Orders to one joint, and what it does. Positions, velocities and torques are the joint side's, in SI units.
+    """Gives orders to one joint and reads its state. Positions, velocities and torques are on the joint side, in SI units.
 
-    name: the joint's in the daemon's configuration; prefix: the daemon's
-    key: file of the secret key (strainwavectl keygen); None: what STRAINWAVE_KEY names; "" or neither: orders go out unsigned
-    lcm_url: None: what LCM_DEFAULT_URL says, or LCM's usual one on this machine
-    timeout_s: of every single wait: for a state, for an acknowledgement, for a change of mode; 0.1 to 3600
+    name: name of the joint in the daemon's configuration; prefix: prefix of the daemon
+    key: file of the secret key (strainwavectl keygen); None: the file that STRAINWAVE_KEY names; "" or neither: orders go out unsigned
+    lcm_url: None: the value of LCM_DEFAULT_URL, or else the default URL of LCM on this machine
+    timeout_s: of each wait: for a state, for an acknowledgement, for a change of mode; 0.1 to 3600
     """
 
     def __init__(self, name, key=None, *, prefix="SW", lcm_url=None, timeout_s=2.0):
@@ -36,7 +36,7 @@ class Joint:
 
     @property
     def state(self):
-        """The latest State; waits for the first. Raises NoAnswer, too when the joint has fallen silent."""
+        """The latest State; waits for the first. Raises NoAnswer, also when the joint has become silent."""
         message = self._conversation.heard_state()
         return State(message, self._conversation.received_s)
 
@@ -50,7 +50,7 @@ class Joint:
         return Limits(self._conversation.limits, self._conversation.received_s)
 
     def states(self, duration_s=math.inf):
-        """Every State that comes, in order, for `duration_s`. A caller that is too slow sees gaps in `cycle`. Raises NoAnswer,
+        """Yields every received State in order, for `duration_s`. A caller that is too slow sees gaps in `cycle`. Raises NoAnswer,
         InvalidInput.
         """
         if duration_s != math.inf:
@@ -63,7 +63,7 @@ class Joint:
         try:
             while True:
                 if not self._wait_until(lambda: inbox, self._timeout_s):
-                    self._conversation.wait_for_state()  # says more when there never was one
+                    self._conversation.wait_for_state()  # its error is more specific if no state ever came
                     raise self._conversation.fell_silent("lost contact with strainwaved")
                 message, received_s = inbox.popleft()
                 end_s = received_s + duration_s if end_s is None else end_s
@@ -74,7 +74,7 @@ class Joint:
             self._conversation.close_inbox(inbox)
 
     def enable(self):
-        """Switches the drive on; returns once the joint holds. What is so already is no error, and nothing is sent for it."""
+        """Switches the drive on; returns once the joint holds. If it is enabled already, nothing is sent and there is no error."""
         self._conversation.heard_state()
         state = self._conversation.deciding_state()
         if state.mode not in _ENABLED:
@@ -92,7 +92,7 @@ class Joint:
         self._wait_for(decided)
 
     def disable(self):
-        """Stops and switches the drive off; returns once it is. Needs no key, and is repeated until it is acknowledged."""
+        """Stops the joint and switches the drive off; returns once it is off. Needs no key. It is repeated until it is acknowledged."""
         self._stop(Action.DISABLE)
 
         def decided():
@@ -104,13 +104,13 @@ class Joint:
         self._wait_for(decided)
 
     def hold(self):
-        """Stops where the joint comes to rest; returns once it holds. Needs no key, and is repeated until it is acknowledged."""
+        """Stops the joint where it comes to rest; returns once it holds. Needs no key. It is repeated until it is acknowledged."""
         self._stop(Action.HOLD)
         self._conversation.wait_for_state()
         wait_for_motion(self._conversation, Mode.TRACKING, "hold", lambda state: state.mode == Mode.HOLDING)
 
     def clear_fault(self):
-        """Leaves a latched fault, to off. A joint without one is left alone."""
+        """Clears a latched fault; the joint is off then. For a joint without a fault, nothing is sent."""
         self._conversation.heard_state()
         state = self._conversation.deciding_state()
         if state.mode == Mode.FAULTED:
@@ -125,30 +125,30 @@ class Joint:
             raise NotDone(f"{self.name}: homing was stopped before it found home")
 
     def take_over(self):
-        """Makes this user the owner of the joint, also where another client owns it. Needs the role engineer."""
+        """Makes this user the owner of the joint, even if another client owns it. Needs the role engineer."""
         self._order(Action.TAKE_OVER)
 
     def release(self):
-        """Gives the joint up before its lease ends: it has no owner."""
+        """Gives up the ownership of the joint before its lease ends. The joint has no owner then."""
         self._order(Action.RELEASE)
 
     def reset_learning(self):
-        """Forgets the learned friction and load: the joint takes its table's friction. It must hold or be off."""
+        """Forgets the learned friction and load: the joint uses the friction of its table. The joint must hold or be off."""
         self._order(Action.RESET_LEARNING)
 
     def freeze_learning(self):
-        """What was learned stays in use and changes no more, until resume_learning() or a restart of the daemon."""
+        """Keeps the learned values in use without further change, until resume_learning() or a restart of the daemon."""
         self._order(Action.FREEZE_LEARNING)
 
     def resume_learning(self):
-        """The joint learns again."""
+        """Lets the joint learn again."""
         self._order(Action.RESUME_LEARNING)
 
     def move(self, position_rad, *, speed_limit_rad_s=0.0, tolerance_rad=1e-3, wait=True) -> Arrival | None:
-        """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: the share of its limit that the joint moves at by itself).
+        """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: the default share of the joint's limit).
 
-        With `wait`, returns an Arrival once the joint is within `tolerance_rad` and stays there. Without, returns at once: the joint
-        is on its way. An exception of the wait, a keyboard interrupt too, does not end the motion: hold() does. Raises Refused, Faulted,
+        With `wait`, returns an Arrival once the joint is within `tolerance_rad` and stays there. Without, returns at once, while the
+        joint moves. An exception of the wait, such as a keyboard interrupt, does not end the motion: hold() does. Raises Refused, Faulted,
         NotDone, NoAnswer, InvalidInput.
         """
         position_rad = check_number("position_rad", position_rad, "a finite number of rad", lambda _: True, self.name)
@@ -170,10 +170,10 @@ class Joint:
     def stream(self, *, ahead_s=0.1, valid_for_s=2.0, speed_limit_rad_s=0.0, approach=False, beside=None):
         """A Stream of setpoints, for a with-statement. Nothing moves before its first put().
 
-        ahead_s: how long before its time a sample is sent; what the network and this program may be late by
-        valid_for_s: the stream ends when no sample comes for so long; the joint comes to rest before that
-        approach: a stream that begins far from the joint is approached at the speed of a move; else the daemon refuses it
-        beside: the Stream of another joint of this daemon: the same t is the same cycle then
+        ahead_s: how long before its time a sample is sent; the network and this program may be late by this time
+        valid_for_s: the stream ends when no sample comes for this time; the joint comes to rest before that
+        approach: True: if the stream begins far from the joint, the joint approaches it at the speed of a move; False: the daemon refuses it
+        beside: the Stream of another joint of this daemon; the same t is then the same cycle in both
         """
         return Stream(self, self._conversation, self.limits.period_s, ahead_s, valid_for_s, self._speed_limit(speed_limit_rad_s), approach,
                       beside)
@@ -182,11 +182,11 @@ class Joint:
         return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0, self.name)
 
     def _check_quick_enough(self, state, position_rad, speed_rad_s):
-        # Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
+        # A move of more than an hour is probably a mistake, and no path may take longer either.
         way_rad = abs(position_rad - state.setpoint_position_rad)
         if speed_rad_s == 0 or way_rad <= speed_rad_s * LONGEST_PATH_S:
             return
-        least = f"{1.01 * way_rad / LONGEST_PATH_S:.3g}"  # a hundredth more for what printing rounds off
+        least = f"{1.01 * way_rad / LONGEST_PATH_S:.3g}"  # one percent more, for rounding in the message
         hint = degrees_hint(position_rad)
         raise InvalidInput(f"{self.name}: speed_limit_rad_s = {speed_rad_s!r}: at least {least} is allowed, the way of {way_rad:.3g} rad takes "
                            f"{way_rad / speed_rad_s:.3g} s with that speed and a move takes at most {LONGEST_PATH_S:g} s"

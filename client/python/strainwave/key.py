@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The secret key on disk, and signatures: Ed25519 of libsodium, as the daemon has it. Source: client/protocol/key_file.cc,
+"""The secret key on disk, and signatures: Ed25519 of libsodium, as in the daemon. Source: client/protocol/key_file.cc,
 lcmtypes/key_text.cc, lcmtypes/signing.h.
 """
 import base64
@@ -40,7 +40,7 @@ class SecretKey:
         return self._public.raw
 
     def sign(self, channel, message):
-        """`message`, which goes out on `channel`, with key_id and signature in its last 72 bytes."""
+        """Returns `message` for `channel`, with key_id and signature in its last 72 bytes."""
         body = message[:-SEAL_BYTES]
         part = channel.encode("ascii") + b"\0" + body
         signature = ctypes.create_string_buffer(64)
@@ -57,11 +57,11 @@ def read_secret_key(path):
         with open(os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb") as file:
             mode = os.fstat(file.fileno()).st_mode
             line = file.read(512).split(b"\n", 1)[0] if stat.S_ISREG(mode) else None
-    except (OSError, ValueError) as error:  # a name with a zero byte in it is a ValueError
+    except (OSError, ValueError) as error:  # a name with a zero byte raises ValueError
         raise InvalidInput(f"key = {path!r}: the key cannot be read: {getattr(error, 'strerror', error)}") from None
     if line is None:
         raise InvalidInput(f"key = {path!r}: is not a file: give a key of strainwavectl keygen")
-    seed = _seed_of(path, line)  # first whether it is one: a public key is for everybody to read
+    seed = _seed_of(path, line)  # checks the content first, because a public key may be readable by all
     if mode & (stat.S_IRWXG | stat.S_IRWXO):
         raise InvalidInput(f"key = {path!r}: other users can reach this secret key: chmod 600 {path}, and make a new key if they may "
                            "have read it")
@@ -69,7 +69,7 @@ def read_secret_key(path):
 
 
 def _seed_of(path, line):
-    # Never quotes the line: it may be secret.
+    # Errors never quote the line, which may be secret.
     words = line.split(None, 2)
     if words[:1] == [b"ed25519"]:
         raise InvalidInput(f"key = {path!r}: this is a public key: give the file without .pub")

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""LCM's wire format over UDP multicast, read without trust. All numbers are big-endian.
+"""LCM's wire format over UDP multicast. The reader trusts no datagram. All numbers are big-endian.
 
   short:    u32 0x4c433032 "LC02", u32 sequence, channel, 0, the message
   fragment: u32 0x4c433033 "LC03", u32 sequence, u32 size of the whole message, u32 offset of this part in it,
             u16 number of this fragment, u16 count of fragments, in fragment 0 the channel and a zero, the part
 
-Source: LCM 1.3.1, lcm/udpm_util.h and lcm/lcm_udpm.c; the same rules as the daemon's own reader (transport/lcm_wire.h,
-lcm_reassembly.h). No number on the wire decides about memory.
+Source: LCM 1.3.1, lcm/udpm_util.h and lcm/lcm_udpm.c; the same rules as in the daemon's reader (transport/lcm_wire.h,
+lcm_reassembly.h). No received number determines the size of memory.
 """
 import struct
 
 SHORT_MAGIC = 0x4C433032
 FRAGMENT_MAGIC = 0x4C433033
 MAX_CHANNEL = 63
-LARGEST_MESSAGE = 8120  # what is longer is none of ours
+LARGEST_MESSAGE = 8120  # no message of Strainwave is longer
 MAX_FRAGMENTS = 256
 SLOTS = 32
 
@@ -22,14 +22,14 @@ _FRAGMENT = struct.Struct(">IIIIHH")
 
 
 def encode_short(sequence, channel, message):
-    """The datagram of a message that fits into one; every message of ours does."""
+    """The datagram of a message that fits into one, as every message of Strainwave does."""
     name = channel.encode("ascii")
     assert len(name) <= MAX_CHANNEL and len(message) <= LARGEST_MESSAGE
     return _SHORT.pack(SHORT_MAGIC, sequence & 0xFFFFFFFF) + name + b"\0" + message
 
 
 def _split_channel(data, start):
-    """Channel and where what follows it begins, or None."""
+    """The channel and the offset after it, or None."""
     end = data.find(0, start, start + MAX_CHANNEL + 1)
     return None if end < 0 else (data[start:end], end + 1)
 
@@ -39,12 +39,12 @@ class _Slot:
         self.key = key
         size, count = key[1], key[2]
         self.message = bytearray(size)
-        self.parts = [None] * count  # offset and size of what is here
+        self.parts = [None] * count  # offset and size of each received part
         self.missing = count
         self.channel = b""
 
     def fits_together(self):
-        """Each part begins where the one before it ends, from the first byte to the last."""
+        """Whether the parts follow each other without gap or overlap, from the first byte to the last."""
         end = 0
         for offset, size in self.parts:
             if offset != end:
@@ -54,22 +54,22 @@ class _Slot:
 
 
 def _host_of(source):
-    # Whoever is on this machine may send from any of its loopback addresses.
+    # A local program may send from any loopback address, so that all of these count as one host.
     return "127" if source[0].startswith("127.") else source[0]
 
 
 class Reassembly:
-    """Whole messages from datagrams: one slot for a source, SLOTS in all, each with one message of at most LARGEST_MESSAGE bytes.
+    """Assembles messages from datagrams: one slot per source, SLOTS in all, each with one message of at most LARGEST_MESSAGE bytes.
 
-    When all slots are taken, the host that holds most of them loses its oldest, so a host that opens many loses only its own.
+    When all slots are taken, the host with the most slots loses its oldest one. So a host that opens many loses only its own.
     """
 
     def __init__(self):
         self.malformed = 0
-        self._slots = {}  # by source, in the order in which their messages began
+        self._slots = {}  # by source, in the order of their first fragments
 
     def take(self, source, datagram):
-        """(channel, message) as bytes when `datagram`, of any content, from `source` (address, port) completes one; else None."""
+        """(channel, message) as bytes if `datagram` from `source` (address, port) completes a message, else None. Any content is safe."""
         magic = int.from_bytes(datagram[:4], "big")
         if magic == SHORT_MAGIC and len(datagram) >= _SHORT.size:
             return self._take_short(datagram)
@@ -111,7 +111,7 @@ class Reassembly:
         return self._finish(slot) if slot.missing == 0 else None
 
     def _finish(self, slot):
-        # It keeps its place, so that late copies of its fragments begin nothing.
+        # The slot stays, so that late copies of its fragments do not begin a new message.
         return (slot.channel, bytes(slot.message)) if slot.fits_together() else self._refuse()
 
     def _slot_for(self, source, key):

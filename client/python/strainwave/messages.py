@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Messages and their bytes, exact sizes only: a message of one type always has the same length (docs/messages.md)."""
+"""Messages and their bytes. Only exact sizes are accepted: a message type has a fixed length (docs/messages.md)."""
 import functools
 import struct
 
 
 class _Zeros:
-    """Looks like a file of zeros, and counts how many were read."""
+    """Acts as a file of zeros, and counts the bytes read."""
 
     def __init__(self):
         self.count = 0
@@ -16,20 +16,20 @@ class _Zeros:
 
 
 def blank(message_type):
-    """A message with every field zero, text as zero bytes."""
+    """A message with zero in every field and zero bytes in texts."""
     return message_type._decode_one(_Zeros())
 
 
 @functools.lru_cache(maxsize=None)
 def size_of(message_type):
-    """Bytes on the wire: fingerprint and fields."""
+    """Encoded size in bytes: fingerprint and fields."""
     zeros = _Zeros()
     message_type._decode_one(zeros)
     return len(message_type._get_packed_fingerprint()) + zeros.count
 
 
 def decode_exactly(message_type, data):
-    """The message in `data`, or None when its length or its type is another."""
+    """The message in `data`, or None if it has another length or type."""
     if len(data) != size_of(message_type):
         return None
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Waiting for a motion's end. Source: client/commands/motion_commands.cc, of which this is the same in Python."""
+"""Waits for the end of a motion. Source: the same in C++ is client/protocol/motion.cc."""
 import dataclasses
 import math
 
@@ -8,37 +8,37 @@ from .network import now_s
 from .state import State
 from .vocabulary import Mode, Notice
 
-OLD_STATES_S = 0.2  # a state that left the daemon before it took the order may arrive after the acknowledgement
+OLD_STATES_S = 0.2  # a state that the daemon sent before it took the order may arrive after the acknowledgement
 LONGEST_PATH_S = 3600.0  # kLongestPath_s of the daemon
 _LOOK_S = 0.01
-_SAME_CYCLE_S = 0.05  # between the states of a cycle
+_SAME_CYCLE_S = 0.05  # longest wait for the other states of a cycle
 _STAY_S = 0.1
 _MOMENT_S = 0.3
 
 
 def degrees_hint(position_rad):
-    """What to say of a position that was refused and may be meant in degrees; empty when it cannot be."""
+    """A hint for a refused position that may be meant in degrees; empty if it cannot be."""
     if abs(position_rad) <= 2 * math.pi:
         return ""
     return f"positions are in rad: {position_rad:g} degrees would be {math.radians(position_rad):.6g}"
 
 
 def error_text(error_rad, tolerance_rad):
-    """"-9.90e-04": an error, with as many more digits as tell on which side of `tolerance_rad` it is."""
+    """"-9.90e-04": an error, with enough digits to show on which side of `tolerance_rad` it lies."""
     texts = (f"{error_rad:.{digits}e}" for digits in range(2, 17))
     return next(text for text in texts if (abs(float(text)) <= tolerance_rad) == (abs(error_rad) <= tolerance_rad))
 
 
 @dataclasses.dataclass(frozen=True)
 class Arrival:
-    """How a move ended: from the order to when the joint was inside the tolerance for good, and target minus position."""
+    """The end of a move: the time from the order until the joint stayed inside the tolerance, and target minus position."""
 
     duration_s: float
     error_rad: float
 
 
 class ArrivalWatch:
-    """Inside a tolerance of a target, and staying there."""
+    """Watches whether a joint is inside the tolerance of its target and stays there."""
 
     def __init__(self, joint, target_rad, tolerance_rad, patience_s):
         self._joint, self._target_rad, self._tolerance_rad, self._patience_s = joint, target_rad, tolerance_rad, patience_s
@@ -47,7 +47,7 @@ class ArrivalWatch:
         self.arrival = None
 
     def observe(self, state):
-        """From when on it is inside. A short motion may be over before it is known to be this order's."""
+        """Notes the time at which the joint got inside. A short motion may end before its order is known to be in force."""
         if not abs(self._target_rad - state.joint_position_rad) <= self._tolerance_rad:
             self._inside_s = None
         elif self._inside_s is None:
@@ -71,13 +71,13 @@ class ArrivalWatch:
 
 
 def faulted(conversation):
-    """The Faulted of a joint that is."""
+    """The Faulted error for a joint with a fault."""
     state = State(conversation.state, conversation.received_s)
     return Faulted(conversation.joint, state.fault, state.fault_words())
 
 
 def yielded(conversation, undone):
-    """The Yielded of a joint that has, since it was last set moving. undone: what came of it, in words."""
+    """The Yielded error for a joint that has yielded since its last start of motion. undone: the failed action, in words."""
     state = State(conversation.state, conversation.received_s)
     now = f"it holds at {state.joint_position_rad:.4g} rad" if state.mode == Mode.HOLDING else f"it is {state.mode}"
     return Yielded(conversation.joint, f"{undone}: it yielded to a load of {abs(state.yield_load_Nm):.4g} N.m (load_Nm allows "
@@ -86,7 +86,7 @@ def yielded(conversation, undone):
 
 
 def has_yielded(state):
-    """Of a state_v1, or a State."""
+    """Whether a state_v1 or a State shows that the joint has yielded to a load."""
     return bool(state.notices & Notice.YIELDED)
 
 
@@ -99,11 +99,11 @@ def _why_ended(state, session_id, replaced):
 
 
 class MotionWatch:
-    """A joint's motion, looked at again and again once its order is in force.
+    """Watches a joint's motion once its order is in force.
 
-    mode: while the motion lasts; purpose: in words, after "did not"; done(State): whether it came to its end
-    replaced(State): whether another order of its kind did; None: cannot be
-    observe(State): called with every state that shows this order's target, though it may be from before it
+    mode: while the motion lasts; purpose: in words, after "did not"; done(State): whether it has ended as ordered
+    replaced(State): whether another order of its kind replaced it; None: impossible
+    observe(State): called with every state that shows this order's target; the state may be older than the order
     """
 
     def __init__(self, conversation, mode, purpose, done, replaced=None, observe=lambda state: None):
@@ -114,7 +114,7 @@ class MotionWatch:
         self._seen = False
 
     def stop(self):
-        """The Faulted of a joint that is, or the Yielded of one that has in this motion; else None."""
+        """The Faulted error if the joint has a fault, the Yielded error if it has yielded in this motion, else None."""
         state = self.conversation.state
         if state.mode == Mode.FAULTED:
             return faulted(self.conversation)
@@ -123,12 +123,12 @@ class MotionWatch:
         return None
 
     def _in_force(self, state):
-        # Whether the state is of this motion, or of what came after it.
+        # Whether the state shows this motion or a later one.
         self._seen = self._seen or state.mode == self._mode and not (self._replaced and self._replaced(state))
         return self._seen or now_s() >= self._old_states_end_s
 
     def look(self):
-        """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
+        """Returns True once the motion is done. Raises NotDone if it ended otherwise, NoAnswer if the joint is silent."""
         joint, conversation = self.conversation.joint, self.conversation
         if now_s() - conversation.received_s > conversation.timeout_s:
             raise NoAnswer(f"{joint}: lost contact with strainwaved during the motion: {conversation.silence()}; the joint may still be moving")
@@ -149,8 +149,8 @@ def _stops(motions):
 
 
 def _check_stops(motions):
-    # What stopped any of them is told with what stopped others: once all have come to rest, or the first one's patience ends; and where
-    # others only stopped with it, a moment after that: who drove into something, too, may show it then.
+    # If a fault or a load stopped any joint, raises an error that names every such joint. First it waits until all rest, at most one time-out.
+    # Then it waits a moment more, because a joint that stopped with the others may also show a fault or a yield.
     if not _stops(motions):
         return
     first = motions[0].conversation
@@ -165,15 +165,15 @@ def _check_stops(motions):
 
 
 def wait_for_motions(motions, look=lambda: None):
-    """Returns once all of them are done. Raises Faulted or Yielded of one of them before it asks why those that move with it ended.
-    look() is called again and again meanwhile, and may raise.
+    """Returns once all motions are done. Raises Faulted or Yielded before it reports the effects on the joints that move along.
+    look() is called repeatedly during the wait, and may raise.
     """
     under_way = list(motions)
     while under_way:
         first = under_way[0].conversation
         seen = first.messages
         first.network.wait_until(lambda: first.messages != seen, _LOOK_S)
-        # States of one cycle come one after the other.
+        # The states of one cycle arrive one by one.
         first.network.wait_until(lambda: all(motion.conversation.state.cycle >= first.state.cycle for motion in under_way), _SAME_CYCLE_S)
         _check_stops(under_way)
         under_way = [motion for motion in under_way if not motion.look()]
@@ -182,5 +182,5 @@ def wait_for_motions(motions, look=lambda: None):
 
 
 def wait_for_motion(*motion):
-    """The same of one, of MotionWatch's arguments."""
+    """The same for one motion, with the arguments of MotionWatch."""
     wait_for_motions([MotionWatch(*motion)])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The LCM network: a socket that hears the group, one that sends, and a thread that hands messages to the listeners.
+"""The LCM network: a socket that receives from the group, one that sends, and a thread that passes messages to the listeners.
 
-The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().
+The thread ends with the program. It runs the handlers, one message at a time, while it holds `changed`. Use wait_until() to wait.
 """
 import collections
 import logging
@@ -21,27 +21,27 @@ from .lcm_wire import Reassembly, encode_short
 _log = logging.getLogger("strainwave")
 
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
-MAX_NAMES = 1024  # more joints than any network of ours has
+MAX_NAMES = 1024  # more joints than any real network has
 _QUEUE_BYTES = 1 << 20
 _LOOK_EVERY_S = 0.5
 _LARGEST_DATAGRAM = 65536
-_LONGEST_WAIT_S = 1e9  # the system's clocks take no much longer one
-_AT_ONCE = 128  # datagrams that are read before they are handled
-_SO_TIMESTAMPNS = 35  # of Linux
+_LONGEST_WAIT_S = 1e9  # near the longest wait that the system supports
+_AT_ONCE = 128  # datagrams that are read before any is handled
+_SO_TIMESTAMPNS = 35  # number in Linux
 _NOTE_BYTES = socket.CMSG_SPACE(16)
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,23}")
 _STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.STATE")
 
 
 def check_name(what, name):
-    """`name` if it can be a joint's or a prefix."""
+    """Returns `name` if it is valid for a joint or a prefix."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise InvalidInput(f"{what} = {shown(name)}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
     return name
 
 
 def parse_url(url):
-    """Group, port and ttl of udpm://GROUP:PORT?ttl=N; LCM's own defaults for what is left out."""
+    """Group, port and ttl of udpm://GROUP:PORT?ttl=N. Missing parts have the defaults of LCM."""
     wrong = InvalidInput(f"lcm_url = {shown(url)}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
                          f"of 1 to 65535 and a ttl of 0 to 255; the usual one is {DEFAULT_URL}")
     try:
@@ -58,7 +58,7 @@ def parse_url(url):
 
 
 class Network:
-    """One LCM URL. shared() gives the program's one of a URL; everything on it shares its thread."""
+    """The network of one LCM URL. shared() returns the program's only object for a URL, whose users share its thread."""
 
     _shared = {}
     _shared_lock = threading.Lock()
@@ -76,10 +76,10 @@ class Network:
     def __init__(self, url):
         self.url = url
         self.changed = threading.Condition(threading.RLock())
-        self.joints = {}  # (prefix, joint) of whoever publishes a state: when the last came
-        self.came_s = now_s()  # when the message that is handled now reached this machine
+        self.joints = {}  # time of the last state by (prefix, joint)
+        self.came_s = now_s()  # time at which the present message reached this machine
         self._caught_up_s = now_s()
-        self.read_wholly = collections.Counter()  # channels of states of which somebody wants every one
+        self.read_wholly = collections.Counter()  # state channels of which a listener needs every message
         self._handlers = {}
         self._reassembly = Reassembly()
         self._group, self._port, self._ttl = parse_url(url)
@@ -104,7 +104,7 @@ class Network:
         receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _QUEUE_BYTES)
-        # To the group, not to any address: the kernel then keeps unicast away.
+        # Bound to the group, not to any address, so that the kernel drops unicast.
         receiver.bind((self._group, self._port))
         receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, self._membership)
         receiver.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
@@ -112,7 +112,7 @@ class Network:
         return receiver
 
     def listen(self, channel, method):
-        """Calls method(message as bytes) for each message on `channel` as long as its object lives. It must be quick and not raise."""
+        """Calls method(message as bytes) for each message on `channel` while its object lives. The method must be quick and not raise."""
         with self.changed:
             name = channel.encode("ascii")
             living = [handler for handler in self._handlers.get(name, ()) if handler() is not None]
@@ -128,7 +128,7 @@ class Network:
             raise NoAnswer(f"{channel}: the network of {self.url} did not take a message: {error}") from None
 
     def wait_until(self, condition, timeout_s):
-        """The last value of condition(), which is asked again with every message; it is true, or `timeout_s` have passed."""
+        """Waits until condition() is true or `timeout_s` have passed; checks it after every message. Returns its last value."""
         with self.changed:
             return self.changed.wait_for(condition, min(timeout_s, _LONGEST_WAIT_S))
 
@@ -142,20 +142,20 @@ class Network:
                 looked_s = now_s()
                 self._follow_route()
 
-    # An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
-    # one before. Joining again is refused as long as the route leads to the same one.
+    # If an adapter disappears and returns with the same name and address, the system regards it as new. The old membership then receives
+    # nothing. Joining again fails while the route leads to the same adapter.
     def _follow_route(self):
         try:
             self._receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, self._membership)
             (sender, own_address), receiver = self._open_sender(), self._open_receiver()
         except OSError:
-            return  # the same, or none at present
+            return  # the same adapter, or none at present
         for old in (self._sender, self._receiver):
             old.close()
         self._sender, self._own_address, self._receiver = sender, own_address, receiver
         _log.warning("the route to %s leads to another or a new adapter: joined the group there anew", self._group)
 
-    # All that is here is read before any of it is handled: where states come faster than this program handles them, it goes on with the newest.
+    # Reads all waiting datagrams before it handles any. If states come faster than they are handled, it continues with the newest.
     def _receive(self):
         messages = []
         for _ in range(_AT_ONCE):
@@ -172,19 +172,19 @@ class Network:
         return len(messages) == _AT_ONCE
 
     def _age_s(self, notes):
-        # The kernel tells by a clock that may be set meanwhile: what was not here when there was nothing left came after that.
+        # The kernel's clock may be set. So the age is at most the time since the queue was last empty.
         stamps = [struct.unpack("@ll", note[:16]) for level, kind, note in notes if (level, kind) == (socket.SOL_SOCKET, _SO_TIMESTAMPNS)]
         age_s = time.time() - stamps[0][0] - 1e-9 * stamps[0][1] if stamps else 0.0
         return min(max(age_s, 0.0), now_s() - self._caught_up_s)
 
     def accept(self, source, datagram, age_s=0.0):
-        """Takes one datagram, of any content, that came `age_s` ago. With ttl=0 only what this machine sends is heard."""
+        """Takes one datagram of any content, received `age_s` ago. With ttl=0 it accepts only datagrams of this machine."""
         message = self._understand(source, datagram, age_s)
         if message is not None:
             self._hand_over(*message)
 
     def _understand(self, source, datagram, age_s):
-        """(channel, message, when it came) if `datagram` completes a message."""
+        """(channel, message, time of receipt) if `datagram` completes a message, else None."""
         came_s = now_s() - age_s
         if self._ttl == 0 and source[0] != self._own_address and not source[0].startswith("127."):
             return None
@@ -211,5 +211,5 @@ class Network:
 
 
 def now_s():
-    """The monotonic clock: the only one that ages and time-outs are judged by."""
+    """The monotonic clock, the only clock for ages and time-outs."""
     return time.monotonic()

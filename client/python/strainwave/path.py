@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths"."""
+"""A path: a motion of one or several joints of a daemon. The daemon checks it before it begins. docs/streams.md, "Paths"."""
 import math
 from collections.abc import Iterable, Mapping, Sized
 
@@ -18,7 +18,7 @@ _FIELDS = ("time_s", "position_rad", "velocity_rad_s")  # of a knot
 
 class Path:
     """knots: {joint: [(time_s, position_rad, velocity_rad_s), ...]} with 2 to 320 knots for each Joint; the first at time 0, the first and the
-    last with velocity 0. Between them it goes along cubics. Nothing moves before start().
+    last with velocity 0. Between them the path is cubic. Nothing moves before start().
     """
 
     def __init__(self, knots):
@@ -41,7 +41,7 @@ class Path:
 
     def start(self):
         """All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Raises Refused, which names knot and limit
-        when the path asks for more than a joint can do, NoAnswer, InvalidInput.
+        when the path exceeds a limit of a joint, NoAnswer, InvalidInput.
         """
         path_id = self._joints[0]._conversation.sender.next_sequence()
         for joint, knots in self._knots.items():
@@ -61,7 +61,7 @@ class Path:
         self._joints[0]._order(Action.PAUSE)
 
     def resume(self):
-        """Goes on after a pause."""
+        """Continues after a pause."""
         self._joints[0]._order(Action.RESUME)
 
     def hold(self):
@@ -70,10 +70,10 @@ class Path:
             joint.hold()
 
     def wait(self, tolerance_rad=1e-3, timeout_s=None):
-        """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
-        the path is paused, too: see Notice.PATH_PAUSED and path_time_s of the state. Raises Faulted, NoAnswer, and NotDone: after
-        `timeout_s`, which says where the path is and whether it is paused, or when something else ended it. Of a path that another program
-        started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at its end.
+        """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. The wait goes
+        on during a pause: see Notice.PATH_PAUSED and path_time_s of the state. Raises Faulted and NoAnswer. Raises NotDone after `timeout_s`,
+        with the place on the path and whether it is paused, or when the path ended otherwise. It may also wait for a path that another program
+        has started. If this path is not under way, it soon raises NotDone, even if the joints are at its end.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
         if timeout_s is not None:
@@ -91,8 +91,8 @@ class Path:
         return {joint: watch.arrival for joint, watch in arrivals.items()}
 
     def _joint_elsewhere(self):
-        """Of those that are not on their way to this path's end the first; None: it is under way."""
-        # Joints that stand at its end may have come there in any way.
+        """The first joint that is not on its way to the end of this path; None: the path is under way."""
+        # Joints at rest at the end may have arrived there by another motion.
         ends = [(joint, joint._conversation.state, knots[-1][1]) for joint, knots in self._knots.items()]
         elsewhere = [joint for joint, state, end_rad in ends if state.target_position_rad != end_rad]
         moving = any(state.mode == Mode.TRACKING or not math.isnan(state.path_time_s) for _, state, _ in ends)

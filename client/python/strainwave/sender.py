@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who sends: the one place that fills in identity, session, sequence and signature of an order. Source: client/protocol/sender.h."""
+"""Seals orders: only this module fills in identity, session, sequence and signature. Source: client/protocol/sender.h."""
 import os
 import socket
 import threading
@@ -8,12 +8,12 @@ import time
 from .key import read_secret_key
 
 
-# Sequences rise with the clock, in microseconds; nothing that a daemon answers comes near this.
+# Sequences rise with the clock, in microseconds. No real answer of a daemon comes near this value.
 LARGEST_SEQUENCE = 2**62
 
 
 def identity(name):
-    """62 bits of `name`, never 0: FNV-1a, as strainwavectl has it."""
+    """62 bits from `name`, never 0: FNV-1a, as in strainwavectl."""
     value = 0xCBF29CE484222325
     for byte in name.encode():
         value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
@@ -21,7 +21,7 @@ def identity(name):
 
 
 def own_identity():
-    """This machine's and this user's: programs of theirs that follow each other, strainwavectl too, own the same joints."""
+    """The identity of this user on this machine. Successive programs of the user, also strainwavectl, own the same joints."""
     try:
         with open("/etc/machine-id", encoding="ascii", errors="replace") as file:
             machine = "".join(file.read().split()[:1])
@@ -40,19 +40,19 @@ class Sender:
         self._lock = threading.Lock()
 
     def next_sequence(self, utime=None):
-        """Rises over everything that is sent, and with the clock over all programs of one key."""
+        """Larger than every earlier sequence of this sender. Through the clock, it also exceeds those of other programs with the key."""
         with self._lock:
             self._sequence = max(self._sequence + 1, time.time_ns() // 1000 if utime is None else utime)
             return self._sequence
 
     def rise_above(self, sequence):
-        """Another program of this key was ahead. What leaves no room above it is no daemon's answer."""
+        """Makes the next sequence larger, after another program with this key was ahead. Ignores values that no daemon sends."""
         with self._lock:
             if sequence < LARGEST_SEQUENCE:
                 self._sequence = max(self._sequence, sequence)
 
     def seal(self, channel, message, state):
-        """Completes `message` for the daemon of `state` (None: for whichever, a stop) and returns its bytes."""
+        """Completes `message` for the daemon of `state` (None: any daemon, for a stop) and returns its bytes."""
         message.utime = time.time_ns() // 1000
         message.session_id = state.session_id if state else 0
         message.challenge = state.challenge if state else 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the daemon publishes of a joint, with numbers by name. The fields are those of docs/messages.md."""
+"""The published data of a joint, with named codes. docs/messages.md describes the fields."""
 from .limits_v1 import limits_v1
 from .messages import text_of
 from .state_v1 import state_v1
@@ -7,7 +7,7 @@ from .vocabulary import Fault, Mode, Notice, TemperatureStatus, fault_words
 
 
 class _Snapshot:
-    """The fields of a message; does not change any more."""
+    """The fields of one message, copied once."""
 
     def __init__(self, message, received_s):
         for name in message.__slots__:
@@ -19,7 +19,7 @@ class _Snapshot:
 
 
 class State(_Snapshot):
-    """state_v1: what the joint does in one cycle."""
+    """state_v1: the state of the joint in one cycle."""
 
     def __init__(self, message: state_v1, received_s):
         super().__init__(message, received_s)
@@ -27,21 +27,21 @@ class State(_Snapshot):
         self.fault = Fault(message.fault)
         self.notices = Notice(message.notices & 0xFFFFFFFF)
         self.temperature_status = TemperatureStatus(message.temperature_status)
-        # Only as many as the table has rules mean anything.
+        # Only the entries for the rules of the table have a meaning.
         for field in ("temperature_weights", "friction_rule_C", "friction_scales"):
             setattr(self, field, tuple(getattr(message, field)[:max(0, message.rule_count)]))
 
     def fault_words(self):
-        """The fault in words; with fault 5, which of its causes it was."""
+        """The fault in words; for faults 5 and 26 with the details of drive_error."""
         return fault_words(self.fault, self.drive_error)
 
     def tracking_error_rad(self):
-        """Where the joint should be read in this cycle, less where it is read."""
+        """The setpoint position less the measured position, of the same cycle."""
         return self.setpoint_position_rad - self.joint_position_rad
 
 
 class Limits(_Snapshot):
-    """limits_v1: what the joint is and how far it may go."""
+    """limits_v1: the model of the joint and its limits."""
 
     def __init__(self, message: limits_v1, received_s):
         super().__init__(message, received_s)

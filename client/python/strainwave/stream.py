@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stream of setpoints: where the joint shall be at which time. docs/streams.md."""
+"""A stream of setpoints: positions of the joint at given times. docs/streams.md."""
 import math
 
 from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown
@@ -9,16 +9,16 @@ from .network import now_s
 from .setpoint_v1 import setpoint_v1
 from .vocabulary import Mode, Reason
 
-FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
-_LARGEST_T_S = 1e12  # its cycle fits into a message
+FARTHEST_AHEAD_S = 0.9  # the daemon allows 1 s; the transmission takes part of it
+_LARGEST_T_S = 1e12  # a cycle of this time fits into a message
 _LONGEST_STEP_S = 0.5  # without samples a joint comes to rest after 0.2 s
 _ANOTHER_ONE = "this stream is over; Joint.stream() makes another one"
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
 def check_number(name, value, allowed, is_allowed, joint="", keys="", hint=lambda number: ""):
-    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none. `joint`: whose it is, if it is one's;
-    `keys`: of the daemon's configuration that say what is allowed; hint(number): what to say besides of a finite number.
+    """`value` as a float if it is a finite and allowed number, not a text or a truth value. `joint`: the joint it belongs to, if any;
+    `keys`: the configuration keys of the daemon that set the limit; hint(number): added to the error for a finite number.
     """
     try:
         if isinstance(value, (str, bytes, bool)):
@@ -33,7 +33,7 @@ def check_number(name, value, allowed, is_allowed, joint="", keys="", hint=lambd
 
 
 class TimeBase:
-    """Which cycle of the daemon the time t of a stream is; joints that move together share one."""
+    """Relates the time t of a stream to the daemon's cycles. Joints that move together share it."""
 
     def __init__(self):
         self.origin_t = None
@@ -44,11 +44,11 @@ class TimeBase:
 
 
 class Stream:
-    """Made by Joint.stream(); use it in a with-statement: at its end the joint comes to rest and holds."""
+    """Made by Joint.stream(). Use it in a with-statement: at its end the joint comes to rest and holds."""
 
     def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, approach, beside):
-        self.late = 0  # samples that came after their time, or after a later one: left out, or refused by the daemon
-        self.outdated = 0  # samples that the daemon refused since they quoted an old state
+        self.late = 0  # samples after their time, or after a later sample: left out, or refused by the daemon
+        self.outdated = 0  # samples that the daemon refused because they quoted an old state
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
@@ -64,18 +64,18 @@ class Stream:
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over
-        self._first_cycle = 0  # of the sample that it began with
-        self._session_id = 0  # of the daemon that it began with
-        self._over = False  # closed, or ended by somebody
+        self._first_cycle = 0  # of the first sample
+        self._session_id = 0  # of the daemon at the begin
+        self._over = False  # closed, or ended by another client or the daemon
 
     def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
-        """The joint shall be at `position_rad` at time `t` (s; rising by 0.5 s at most; the first is in `ahead_s` from now), with the velocity and
-        acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
-        carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-        runs at the joint's pace. True: it was sent in time; whether the daemon takes it a later put() tells. False: it was left out, for its time
-        is over. Raises Refused, Faulted, Yielded, NotDone (also when the stream is over), NoAnswer, InvalidInput.
+        """Orders `position_rad` for time `t` (s; increasing by 0.5 s at most; the first is `ahead_s` from now), with velocity and acceleration
+        if they are known. `torque_Nm` is added to the planned torque (gravity, contact). `load_inertia_kgm2` is added to the joint's own inertia.
+        Waits until the sample is due, `ahead_s` before its time, so that a loop over t runs at the joint's pace. True: it was sent in time;
+        a later put() reports a refusal. False: it was left out, because its time is over. Raises Refused, Faulted, Yielded, NotDone (also
+        when the stream is over), NoAnswer, InvalidInput.
         """
-        if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
+        if self._over:  # a later sample does not restart the stream: another client may have ended it for a reason
             raise NotDone(f"{self._joint.name}: {_ANOTHER_ONE}")
         if self._last_cycle is not None:
             self._check_restart()
@@ -102,8 +102,8 @@ class Stream:
         return True
 
     def cycle_of(self, t):
-        """The daemon's cycle that the sample of time `t` is for, as `state.cycle` counts: what was ordered can be compared with what the joint
-        did. Raises NotDone before the first put(), which sets the time, and InvalidInput."""
+        """The daemon's cycle for the sample of time `t`, in the count of `state.cycle`, to compare the order with the motion. Raises NotDone
+        before the first put(), which sets the time, and InvalidInput."""
         t = self._checked("t", t, f"a finite time in s, from -{_LARGEST_T_S:g} to {_LARGEST_T_S:g}", lambda s: abs(s) <= _LARGEST_T_S)
         if self._base.origin_t is None:
             raise NotDone(f"{self._joint.name}: the stream has not begun: its first put() says which cycle its time is")
@@ -190,17 +190,17 @@ class Stream:
         if wait_s > _LONGEST_STEP_S:
             raise InvalidInput(f"{self._joint.name}: t = {self._last_t!r}: due in {wait_s:.4g} s, at most {_LONGEST_STEP_S} is allowed: "
                                "t counts seconds, not milliseconds")
-        # A refusal needs no waiting for the time that it is too late for.
+        # A refusal ends the wait at once, so that put() can report it.
         self._conversation.network.wait_until(lambda: self._conversation.has_refusals or self._restarted(), max(0.0, wait_s))
 
-    # A sample that quotes an old state is refused. After a while in which this program stood still, those that came meanwhile go first.
+    # The daemon refuses samples that quote an old state. After a stall of this program, it first takes the states that arrived meanwhile.
     def _wait_for_new_states(self, cycle):
         conversation = self._conversation
         if conversation.is_behind:
             conversation.network.wait_until(lambda: not conversation.is_behind, max(0.0, (cycle - self._now_cycle()) * self._period_s))
 
     def _check_refusals(self):
-        # What ended the stream, if that is the joint's own doing, is told before what became of the samples since.
+        # A fault or a yield of the joint is reported before the refusals that it caused.
         self._check_state(self._first_cycle)
         while (refusal := self._conversation.take_refusal()) is not None:
             reason, text, overtaken = refusal
@@ -221,7 +221,7 @@ class Stream:
         counts = f"{self.late} of its samples came late, {self.outdated} quoted an old state; " if self.late + self.outdated else ""
         return counts + _ANOTHER_ONE
 
-    # A refusal may be here before the state that says why.
+    # The refusal may arrive before the state that explains it.
     def _check_joint(self):
         conversation = self._conversation
         seen = conversation.messages
@@ -229,7 +229,7 @@ class Stream:
             lambda: conversation.state.mode == Mode.FAULTED or self._restarted() or conversation.messages > seen + 1, OLD_STATES_S)
         self._check_state(conversation.state.cycle)
 
-    # Before `from_cycle` a yield may be one from before the stream.
+    # In states before `from_cycle`, a yield may be older than the stream.
     def _check_state(self, from_cycle):
         self._check_restart()
         state = self._conversation.state
@@ -240,7 +240,7 @@ class Stream:
             self._lose()
             raise yielded(self._conversation, "did not follow the stream to its end")
 
-    # Each daemon counts its own cycles: the samples' times are none of the new one's.
+    # Each daemon counts its own cycles, so the samples' cycles have no meaning for a restarted one.
     def _restarted(self):
         return self._conversation.state.session_id != self._session_id
 
@@ -250,7 +250,7 @@ class Stream:
             raise NotDone(f"{self._joint.name}: did not follow the stream to its end: the daemon was restarted, and the joint is "
                           f"{Mode(self._conversation.state.mode)}; enable it, and go on with a new stream: Joint.stream()")
 
-    # Whoever, or whatever, ended it has the joint.
+    # The stream has lost the joint to the client or the event that ended it, so it sends no hold.
     def _lose(self):
         self._over, self._last_cycle = True, None
 
