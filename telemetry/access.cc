@@ -46,7 +46,7 @@ std::pair<std::string_view, std::string_view> split(std::string_view text) {
 }
 
 std::string_view token_in(const RequestFacts& request) {
-  // A scheme's name is written in any case (RFC 9110, 11.1).
+  // Names of schemes are case-insensitive (RFC 9110, 11.1).
   const std::string_view scheme = request.authorization.substr(0, kBearer.size());
   const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
   if (std::equal(scheme.begin(), scheme.end(), kBearer.begin(), kBearer.end(), same))
@@ -66,7 +66,7 @@ bool is_this_machine(std::string_view host) {
   return name == "localhost" || is_loopback(name);
 }
 
-/// The page that this server has at / has the address that was asked for as its origin.
+/// The origin of the server's own page is the requested address.
 bool has_own_origin(const RequestFacts& request) {
   return request.origin == "http://" + std::string(request.host);
 }

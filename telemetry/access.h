@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may see telemetry: where the server listens, and what a request must show. Not real-time.
-// Without a token it listens on loopback alone, and answers nothing to web pages that the operator's browser happens to visit. A page's
-// origin must be a viewer's, and the requested host name this machine's, as a page could give its own name our address.
+// Access control of telemetry: the listening address, and the proof that a request needs. Not real-time. Without a token the
+// server listens on loopback only. It also refuses requests of foreign web pages in the operator's browser: the origin must be an
+// allowed page. The requested host name must belong to this machine, because a page could map its own name to our address.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ bool is_loopback(const std::string& host);
 struct AccessRules {
   static constexpr std::size_t kShortestToken = 16;
 
-  std::string token;                 ///< empty: none is asked for
+  std::string token;                 ///< empty: none is required
   std::vector<std::string> origins;  ///< web pages that may show telemetry
 };
 
-/// Reads the first line of `file`. Throws InputError: it cannot be read, everybody can read it, or the token is too short or has
-/// characters that do not fit into an address.
+/// Reads the first line of `file`. Throws InputError if it is unreadable, other users may read or write it,
+/// or the token is unusable: too short, or with characters that do not fit into an address.
 std::string read_token(const std::string& file);
 
-/// What a request says of itself; empty: nothing.
+/// The relevant parts of a request. A missing part is empty.
 struct RequestFacts {
   std::string_view target;         ///< "/metrics?token=..."
   std::string_view authorization;  ///< "Bearer ..."
@@ -42,16 +42,16 @@ struct RequestFacts {
 
 enum class Access { kGranted, kNoToken, kForeignPage };
 
-/// With a token the request must have it, as a header or in its target. Without one, see above.
+/// With a token, the request must have it in a header or in its target. Without one, the rules at the top of this file apply.
 Access judge(const RequestFacts& request, const AccessRules& rules);
 
-/// Whether a browser sends it for the page of this server: the page's origin is the address that was asked for, by a name of this machine.
+/// Whether the page of this server sent the request: the page's origin is the requested address, under a name of this machine.
 bool is_from_own_page(const RequestFacts& request);
 
-/// Takes as long whatever differs, so that time tells nothing about the token.
+/// The time for equal lengths does not depend on the contents, so that it reveals nothing about the token.
 bool equal_in_constant_time(std::string_view given, std::string_view token);
 
-/// The target without what stands behind the question mark.
+/// The target without the question mark and the part after it.
 std::string_view path_of(std::string_view target);
 
 }  // namespace strainwave

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kAnswer_s = 2.0;  // how long an order is repeated, as strainwavectl does
+constexpr double kAnswer_s = 2.0;  // time-out of an order's repetitions, as in strainwavectl
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
@@ -63,7 +63,7 @@ Acting::Acting(const std::filesystem::path& key_file, const Fleet& fleet, Pendin
 void Acting::take(const Page& page, const PageOrder& order, double now_s) {
   try {
     obey(page, order, now_s);
-  } catch (const InputError& error) {  // the key is gone
+  } catch (const InputError& error) {  // the key file is gone
     answer(page.number, error.what(), true);
   }
 }
@@ -166,7 +166,7 @@ void Acting::jog(std::uint64_t page, const PageOrder& order, double now_s) {
     mine->second.renewed_s = now_s;
     return;
   }
-  // What comes after the end of a jog, however late, begins none.
+  // A message that arrives after the end of its jog, however late, must not begin a new one.
   if (*order.jog <= last_jogs_[page]) return;
   last_jogs_[page] = *order.jog;
   if (jogs_.contains(joint)) return refuse("another page jogs this joint");
@@ -246,9 +246,9 @@ void Acting::take(const ChannelName& name, const ack_v1& ack) {
   const auto jog = jogs_.find({name.prefix, name.joint});
   const bool of_sample = jog != jogs_.end() && jog->second.begun && ack.accepted != 1 &&
                          ack.sender_id == sender_.sender_id() && ack.sequence > jog->second.first_sequence;
-  // One that a later sample overtook is no loss.
+  // A sample that a later one has overtaken is no loss.
   if (!of_sample || static_cast<Reason>(ack.reason) == Reason::kOldSequence) return;
-  // No hold: the stream is over, and what the joint does now may be the order of another client.
+  // Sends no hold: the stream is over, and the joint may now follow another client.
   const Answer refusal = to_answer(ack);
   answer(jog->second.page, full_name(jog->first) + ": jog ended: " + why_not(&refusal), true);
   jogs_.erase(jog);

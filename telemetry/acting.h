@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders from the page to joints, where an operator's key is configured: signed here, and judged by the daemon as those of every client.
-// Each order quotes the challenge of the state that the page shows, so the daemon refuses one that comes late. Not real-time.
-// The page is answered by texts with "op": "acting" (to open: open, jog_speed_share) or "acted" (text, refused).
+// Orders from the page to joints, with an operator's key. They are signed here, and the daemon judges them like those of
+// any client. Each order quotes the challenge of the state on the page, so the daemon refuses late ones. Not real-time.
+// The page receives answers with "op": "acting" (reply to open: open, jog_speed_share) or "acted" (text, refused).
 #pragma once
 
 #include <cstdint>
@@ -22,31 +22,31 @@ namespace strainwave {
 
 class Acting {
  public:
-  /// A connection to the page, and whether its browser names this server as the origin of the page.
+  /// A connection to the page. is_own: its browser names this server as the origin of the page.
   struct Page {
     std::uint64_t number = 0;
     bool is_own = false;
   };
   using Say = std::function<void(std::uint64_t page, std::string text)>;
 
-  /// A jog goes at this share of the joint's speed limit at most: the tenth that drives' manuals call a jog.
+  /// Largest speed of a jog, as a share of the joint's speed limit. A tenth is usual in manuals of drives.
   static constexpr double kJogSpeedShare = 0.1;
-  /// A jog lasts so long after the page's last word, of which three (acting.js) may be lost, and after the last tick().
+  /// A jog ends this long after the page's last message or the last tick(). Three messages in a row may get lost (acting.js).
   static constexpr double kJogLasts_s = 0.3;
-  /// Between two samples of a jog; call tick() as often.
+  /// Time between two samples of a jog; call tick() at this interval.
   static constexpr double kTick_s = 0.02;
 
-  /// `fleet` outlives this. `say` sends a text to a page, if it is still there. Throws InputError: the key cannot be used, or is not an operator's.
+  /// `fleet` must outlive this object. `say` sends a text to an open page. Throws InputError if the key is unusable or not an operator's.
   Acting(const std::filesystem::path& key_file, const Fleet& fleet, PendingOrder::Publish publish, Say say);
 
-  /// What a page must show before it may move anything: made anew at each start.
+  /// The token that a page must show before it may move a joint. Each start makes a new one.
   const std::string& token() const noexcept { return token_; }
 
-  /// One order of a page. `now_s`: any steady clock.
+  /// Takes one order of a page. `now_s`: any steady clock.
   void take(const Page& page, const PageOrder& order, double now_s);
-  /// The page is gone: what it jogs holds.
+  /// The page has closed. The joints that it jogs hold.
   void forget(std::uint64_t page);
-  /// The answer of a daemon to any client.
+  /// Takes an answer of a daemon to any client.
   void take(const ChannelName& name, const ack_v1& ack);
   void tick(double now_s);
 
@@ -68,14 +68,14 @@ class Acting {
 
   void obey(const Page& page, const PageOrder& order, double now_s);
   void open(const Page& page, const PageOrder& order);
-  /// Of every joint that is heard or jogged, and the end of every jog. One stop of a joint waits for its answer: stops need no token, and
-  /// may come by the thousand.
+  /// Stops every joint that is heard or jogged, and ends every jog. Only one stop per joint waits for its
+  /// answer, because stops need no token and may arrive by the thousand.
   void stop(const Page& page);
   void command(std::uint64_t page, const Name& joint, Action action, const Quote& quote);
   void jog(std::uint64_t page, const PageOrder& order, double now_s);
   void begin_jog(const Name& joint, Jog jog);
   static setpoint_v1 sample(const Jog& jog);
-  /// The joint holds, and the page is sent `why`, if anything.
+  /// Holds the joint, and sends `why` to the page if it is not empty.
   void end_jog(Jogs::iterator jog, const std::string& why);
   void answer(std::uint64_t page, const std::string& text, bool refused);
 
@@ -85,8 +85,8 @@ class Acting {
   Sender sender_;
   OpenOrders orders_;
   std::string token_;
-  std::set<std::uint64_t> open_;                     ///< pages that showed the token
-  std::map<std::uint64_t, std::int64_t> last_jogs_;  ///< by page, the number of the last jog that it began
+  std::set<std::uint64_t> open_;                     ///< pages that have shown the token
+  std::map<std::uint64_t, std::int64_t> last_jogs_;  ///< by page: the number of the last jog that it began
   Jogs jogs_;
 };
 

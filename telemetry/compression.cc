@@ -10,8 +10,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr int kGzipWindow = MAX_WBITS + 16;  // zlib: 16 more ask for gzip's header
-constexpr int kMemoryLevel = 8;              // zlib's own default
+constexpr int kGzipWindow = MAX_WBITS + 16;  // zlib: + 16 selects the gzip header
+constexpr int kMemoryLevel = 8;              // default of zlib
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::string gzip(std::string_view text) {
       Z_OK)
     throw std::runtime_error("zlib cannot begin to compress: is memory left?");
   std::string packed(::deflateBound(&stream, text.size()), '\0');
-  // zlib only reads what is not const there.
+  // zlib only reads from this pointer, which its interface declares non-const.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
   stream.avail_in = static_cast<uInt>(text.size());
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());
@@ -39,7 +39,7 @@ bool takes_gzip(std::string_view accept_encoding) {
     accept_encoding.remove_prefix(std::min(accept_encoding.size(), entry.size() + 1));
     entry.remove_prefix(std::min(entry.size(), entry.find_first_not_of(" \t")));
     if (entry.substr(0, entry.find_first_of("; \t")) != "gzip") continue;
-    const std::size_t weight = entry.find("q=");  // of 0: it is not taken
+    const std::size_t weight = entry.find("q=");  // weight 0: not accepted
     return weight == std::string_view::npos ||
            entry.find_first_of("123456789", weight) != std::string_view::npos;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A page for clients that take it compressed, as Prometheus does: a page of metrics shrinks to a tenth or less. Not real-time.
+// Compression of pages for clients that accept it, such as Prometheus. A page of metrics shrinks to a tenth or less. Not real-time.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace strainwave {
 
-/// `text` as a file of gzip (RFC 1952), fast rather than small.
+/// `text` in the gzip format (RFC 1952), compressed for speed, not size.
 std::string gzip(std::string_view text);
 
-/// Whether a request with this Accept-Encoding takes gzip (RFC 9110, 12.5.3).
+/// Whether a request with this Accept-Encoding accepts gzip (RFC 9110, 12.5.3).
 bool takes_gzip(std::string_view accept_encoding);
 
 }  // namespace strainwave

@@ -51,12 +51,12 @@ constexpr std::array kDaemonMetrics{
                  [](const timing_v1& t) { return kSecondsPerNanosecond * real(t.execution_time_max_ns); }},
 };
 
-/// Every fourth bound, a factor of two, is enough for alerts; each would cost a series.
+/// Every fourth bound, a factor of two, suffices for alerts. More bounds would cost more time series.
 constexpr std::size_t kStep = 4;
 
 void expose_histogram(Exposition& page, std::string_view prefix, std::span<const std::int64_t> counts) {
   std::int64_t below = 0;
-  // The last bucket has no bound.
+  // The last bucket has no upper bound.
   for (std::size_t i = 0; i < counts.size(); ++i) {
     below = saturated_sum(below, counts[i]);
     if (i % kStep != 0 || i + 1 == counts.size()) continue;

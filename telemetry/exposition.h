@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A page of metrics in Prometheus' text format 0.0.4: families one after the other, each with its samples together. Not real-time.
+// Writes a page of metrics in Prometheus' text format 0.0.4: family after family, each with its samples. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace strainwave {
 
-/// Names and values; these are names of ours and words of the vocabulary, and need no escapes.
+/// Names and values. They are Strainwave's own names and words of the vocabulary, and need no escapes.
 using MetricLabels = std::vector<std::pair<std::string_view, std::string_view>>;
 
-/// Of a count or another field of a message.
+/// Converts a count or another field of a message.
 template <typename Number>
 constexpr double real(Number number) {
   return static_cast<double>(number);
@@ -23,10 +23,10 @@ enum class MetricType { kGauge, kCounter, kHistogram };
 
 class Exposition {
  public:
-  /// Begins a family; samples until the next one are its own. A family without samples leaves nothing.
+  /// Begins a family. The next samples belong to it. A family without samples leaves no text.
   void family(std::string_view name, MetricType type, std::string_view help);
   void sample(const MetricLabels& labels, double value) { sample("", labels, value); }
-  /// Of a histogram: `suffix` is "_bucket" or "_count".
+  /// A sample of a histogram: `suffix` is "_bucket" or "_count".
   void sample(std::string_view suffix, const MetricLabels& labels, double value);
 
   std::string text() && { return std::move(text_); }
@@ -34,7 +34,7 @@ class Exposition {
  private:
   std::string text_;
   std::string name_;
-  std::string heading_;  ///< of the family, until its first sample
+  std::string heading_;  ///< heading of the family, until its first sample
 };
 
 }  // namespace strainwave

@@ -16,7 +16,7 @@ bool counts_up(const Counts& counts) {
   return std::all_of(std::begin(counts), std::end(counts), [](std::int64_t count) { return count >= 0; });
 }
 
-/// What no loop says: it counts from zero.
+/// Whether a count is negative, which no loop sends.
 bool is_absurd(const timing_v1& timing) {
   return !counts_up(std::array{timing.cycles, timing.overruns, timing.page_faults,
                                timing.state_records_dropped, timing.wakeup_latency_max_ns,

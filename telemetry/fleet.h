@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was heard of every daemon and joint, for their metrics: the latest messages, and what happened since the last minute. Bytes from the
-// network are hostile: the number of names is bounded and shared by those who are heard, and who falls silent is forgotten. Not real-time.
+// The data of all daemons and joints for the metrics: latest messages, and peaks of the last minute. Bytes from the network are
+// hostile: the number of names is bounded and shared fairly between senders, and silent names are forgotten. Not real-time.
 //
-// The metrics are what operators' alerts and plots are made from: their names are a table in joint_metrics.cc and daemon_metrics.cc, and in
-// docs/telemetry.md, which a test compares.
+// Operators build alerts and plots on the metrics. Tables in joint_metrics.cc and daemon_metrics.cc hold
+// their names. A test compares them with docs/telemetry.md.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 
 namespace strainwave {
 
-/// One joint. Messages of other kinds than its state are rarer: they may not be there yet.
+/// One joint. Messages other than its state are rarer and may be absent at first.
 struct JointRecord {
   state_v1 state{};
   double state_heard_s = 0.0;
@@ -43,7 +43,7 @@ struct DaemonRecord {
 
 class Fleet {
  public:
-  /// Who has been silent as long is gone: its metrics end, as Prometheus wants it.
+  /// A joint or daemon that is silent for this long is removed, and its metrics end, as Prometheus requires.
   static constexpr double kSilent_s = 10.0;
   static constexpr std::size_t kMaxJoints = 512;
   static constexpr std::size_t kMaxDaemons = 128;
@@ -52,8 +52,8 @@ class Fleet {
   using Joints = std::map<JointName, JointRecord>;
   using Daemons = std::map<std::string, DaemonRecord>;
 
-  /// One message from the channel `name`, sent by `from`. A joint is known by its states; without any, its other messages say nothing.
-  /// Negative counts are ignored.
+  /// Takes one message from the channel `name`, sent by `from`. A joint exists through its states; without
+  /// one, its other messages are ignored. So are messages with negative counts.
   void take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from = {});
   void take(const ChannelName& name, const limits_v1& message, double now_s, const LcmSource& from = {});
   void take(const ChannelName& name, const temperature_v1& message, double now_s, const LcmSource& from = {});
@@ -61,7 +61,7 @@ class Fleet {
   template <typename Other>
   void take(const ChannelName&, const Other&, double, const LcmSource& = {}) {}
 
-  /// Forgets who is silent.
+  /// Forgets silent joints and daemons.
   void forget_silent(double now_s);
   const Joints& joints() const noexcept { return joints_; }
   const Daemons& daemons() const noexcept { return daemons_; }
@@ -73,7 +73,7 @@ class Fleet {
   FairPlaces<std::string> daemon_places_{kMaxDaemons};
 };
 
-/// Write their metrics.
+/// Write the metrics of joints and daemons.
 void expose_joints(Exposition& page, const Fleet::Joints& joints, double now_s);
 void expose_daemons(Exposition& page, const Fleet::Daemons& daemons);
 

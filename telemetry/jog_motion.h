@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a jogged joint shall be: a velocity that is reached within the acceleration, and that ends at the ends of the range. Time is an
-// argument. Not real-time.
+// The setpoint of a jogged joint: it approaches a velocity within the acceleration limit, and stops at the
+// ends of the range. Time is an argument. Not real-time.
 #pragma once
 
 namespace strainwave {
 
-/// Joint side, all above 0 but the positions.
+/// Joint side. All > 0, except the positions.
 struct JogLimits {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
@@ -15,12 +15,12 @@ struct JogLimits {
 
 class JogMotion {
  public:
-  /// From rest at `position_rad`, or at the nearer end of the range beyond it.
+  /// Starts at rest at `position_rad`, clamped to the range.
   JogMotion(double position_rad, const JogLimits& limits);
 
-  /// One step of `step_s` >= 0 towards the velocity w, of which more than the speed s is not reached:
+  /// One step of `step_s` >= 0 towards the velocity w, limited by the speed s and the acceleration a:
   ///
-  ///   d   way to the end of the range in the direction of motion
+  ///   d   distance to the end of the range in the direction of motion
   ///   v'  w within v - a step .. v + a step, |v'| <= s, |v'| <= sqrt(2 a d)
   ///   p'  p + (v + v') / 2 step, within the range
   void step(double wanted_rad_s, double step_s);

@@ -20,7 +20,7 @@ struct JointMetric {
   std::string_view name;
   MetricType type;
   std::string_view help;
-  Value (*value)(const JointRecord& joint, double now_s);  ///< nothing: not known of this joint
+  Value (*value)(const JointRecord& joint, double now_s);  ///< no value: unknown for this joint
 };
 
 Value of_limits(const JointRecord& joint, double limits_v1::*field) {
@@ -88,7 +88,7 @@ constexpr std::array kJointMetrics{
                 }},
 };
 
-/// What is there only while it lasts: a fault, and each notice, by its name.
+/// Writes the metrics that exist only while a fault or a notice lasts, under the name of each.
 void expose_words(Exposition& page, const Fleet::Joints& joints) {
   page.family("strainwave_joint_fault", MetricType::kGauge, "1 while the fault is latched.");
   for (const auto& [name, joint] : joints)
@@ -101,7 +101,7 @@ void expose_words(Exposition& page, const Fleet::Joints& joints) {
   for (const auto& [name, joint] : joints) {
     for (auto left = static_cast<std::uint32_t>(joint.state.notices); left != 0; left &= left - 1) {
       const std::string_view word = to_text(static_cast<Notice>(1U << std::countr_zero(left)));
-      // Numbers without a meaning would be one sample with one name.
+      // Unknown bits would produce several samples with the same name.
       if (word == "unknown") continue;
       page.sample({{"prefix", name.first}, {"joint", name.second}, {"notice", word}}, 1.0);
     }

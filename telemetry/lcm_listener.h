@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LCM's network, heard and never spoken to: whole messages of every channel, by our own receiver (transport/). Not real-time.
+// Receives whole messages of every channel of LCM's network, with Strainwave's own receiver (transport/). It never sends. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class LcmListener {
   /// Becomes readable when there is something to receive.
   int descriptor() const noexcept { return socket_.descriptor(); }
 
-  /// Hands what is here to `take`: some hundred datagrams at most, so that nothing else waits long. Never waits.
+  /// Passes the waiting messages to `take`: some hundred datagrams at most, so that other work does not wait long. Never waits.
   void receive(const Take& take);
 
   const LcmReassembly::Counts& counts() const noexcept { return reassembly_.counts(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwave-telemetry: live plots and metrics of what is said on LCM, and a page that may move joints where a key is given. See `strainwave-telemetry --help`.
+// strainwave-telemetry: live plots and metrics of LCM messages, and with a key a page that can move joints. See `strainwave-telemetry --help`.
 #include <CLI/CLI.hpp>
 #include <iostream>
 

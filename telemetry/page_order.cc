@@ -21,7 +21,7 @@ std::optional<double> real_in(const Json& json) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-/// Of a number that JavaScript holds exactly.
+/// An integer within the range that JavaScript represents exactly.
 std::optional<std::int64_t> whole_in(const Json& json) {
   constexpr double kLargest = 9007199254740991.0;
   const auto value = real_in(json);

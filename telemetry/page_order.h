@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An order as the page writes it, which may be anything. Not real-time.
-// A text with "op": "act" and an "action":
+// Reads an order from the page. Its content may be arbitrary. Not real-time.
+// The order is a text with "op": "act" and an "action":
 //
-//   open      token                                              the others but stop need it
+//   open      token                                              required before all others except stop
 //   stop                                                         disables every joint that is heard; needs no token
 //   enable    joint, session_id, challenge
 //   hold      joint, session_id, challenge                       also ends a jog
@@ -22,13 +22,13 @@
 
 namespace strainwave {
 
-/// What is not there, or is not what it should be, is empty.
+/// Missing or invalid fields are empty.
 struct PageOrder {
   std::string action;
   std::string token;
   std::optional<OpenOrders::Name> joint;
   std::optional<Quote> quote;
-  std::optional<std::int64_t> jog;       ///< number of the jog, which rises
+  std::optional<std::int64_t> jog;       ///< number of the jog, which increases
   std::optional<double> velocity_rad_s;  ///< joint side
 };
 

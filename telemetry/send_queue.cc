@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-// A frame costs room beside its bytes.
+// A frame takes memory in addition to its text.
 std::size_t bytes_of(const OutgoingFrame& frame) {
   return sizeof(OutgoingFrame) + frame.body->size();
 }

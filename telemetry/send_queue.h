@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What waits to be sent to one viewer, but for news of topics (topic_news.h). Bounded in bytes: data of a viewer that is too slow are
-// dropped, the oldest first, and counted. What a viewer is answered goes first and is never dropped: one that asks and lets too much of
-// that pile up is given up. Not real-time.
+// The outgoing messages of one viewer, except news of topics (topic_news.h). The queue is bounded in bytes.
+// If the viewer is too slow, the queue drops the oldest data first, and counts them. Answers go first and are
+// never dropped. A viewer with too many unread answers is disconnected. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace strainwave {
 
 struct OutgoingFrame {
-  std::optional<MessageHead> head;  ///< of data, sent as binary; none: text
+  std::optional<MessageHead> head;  ///< head of binary data; none: a text
   SharedText body;                  ///< shared by all viewers
 };
 
@@ -25,10 +25,10 @@ class SendQueue {
   static constexpr std::size_t kMaxDataBytes = 2U << 20U;
   static constexpr std::size_t kMaxControlBytes = 4U << 20U;
 
-  /// False: too much is waiting, end the connection.
+  /// Returns false if too much is waiting. End the connection then.
   bool push_control(std::string text);
   void push_data(const MessageHead& head, SharedText body);
-  /// Takes out what is to be sent next, if anything.
+  /// Removes and returns the next frame to send, if any.
   std::optional<OutgoingFrame> pop();
 
   std::uint64_t dropped() const noexcept { return dropped_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A text that is sent to several connections, made once. Not real-time.
+// A text that is made once and sent to several connections. Not real-time.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was largest over the last minute: a scrape every so often must not miss what happened between. Time is an argument. Not real-time.
+// The largest value of the last minute, so that periodic scrapes miss no peak. Time is an argument. Not real-time.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace strainwave {
 
-/// The largest amount, in slots of ten seconds, of which the last six and the one under way count: 60 to 70 s.
+/// The largest magnitude in slots of ten seconds. The last six slots and the current one count: 60 to 70 s.
 class RecentPeak {
  public:
-  /// Time must not go back.
+  /// `now_s` must not decrease.
   void take(double value, double now_s) {
     const std::int64_t number = slot_at(now_s);
     Slot& slot = slots_[static_cast<std::size_t>(number) % kSlots];

@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-// Making a page of 512 joints takes some milliseconds: many who ask at once get the same one.
+// A page of 512 joints takes some milliseconds to make. Requests within this time get the same page.
 constexpr double kPageIsNew_s = 0.1;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what is heard on LCM to viewers and metrics: the program without its command line. Not real-time.
+// Connects LCM to viewers and metrics: the program without its command line. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +19,23 @@ namespace strainwave {
 
 class Telemetry {
  public:
-  /// Throws InputError or std::runtime_error that say what to do.
-  /// `key_file`: an operator's key, by which the page may act; empty: nothing is sent on LCM.
+  /// Throws InputError or std::runtime_error that name the remedy. `key_file`: an operator's key for orders
+  /// from the page; empty: nothing is sent on LCM.
   Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules,
             const std::filesystem::path& key_file);
 
   std::uint16_t port() const { return server_.port(); }
-  /// What the page must show to act; empty: it may not act.
+  /// The token for orders from the page. Empty: the page may not give any.
   std::string token() const { return acting_ ? acting_->token() : ""; }
-  /// Until SIGINT or SIGTERM.
+  /// Runs until SIGINT or SIGTERM.
   void run();
 
  private:
   void take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes);
-  /// Null: too many new ones came at once.
+  /// Null if too many new topics came at once.
   template <typename Message>
   const Topic* topic_of(const std::string& channel, const LcmSource& from);
-  /// The page that all get who ask at once; packed: by gzip.
+  /// The page of metrics, shared by concurrent requests. `packed`: compressed with gzip.
   SharedText metrics(bool packed);
   std::string expose();
 
@@ -45,10 +45,10 @@ class Telemetry {
   std::uint64_t heard_ = 0;
   std::uint64_t not_ours_ = 0;
   SharedText page_;         ///< the latest page of metrics
-  SharedText packed_page_;  ///< the same; null: not asked for yet
+  SharedText packed_page_;  ///< the same, compressed; null: not requested yet
   double page_made_s_ = 0.0;
   std::unique_ptr<Acting> acting_;
-  TelemetryServer server_;  ///< the last one, whose viewers know `acting_`
+  TelemetryServer server_;  ///< the last member, because its viewers use `acting_`
 };
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The news of topics that one viewer has not received yet. Bounded by the number of topics, however slowly the viewer reads and however
-// often names come and go: a topic that came and went meanwhile is left out. Not real-time.
+// The news of topics that one viewer has not received yet. The number of topics bounds them, even for a slow
+// viewer and short-lived names. A topic that came and went in the meantime is left out. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace strainwave {
 
 class TopicNews {
  public:
-  /// Topics in one message: some ten kilobytes.
+  /// Topics in one message: about ten kilobytes.
   static constexpr std::size_t kAtOnce = 16;
 
   void offer(std::uint32_t topic) { offered_.insert(topic); }
-  /// One that was offered.
+  /// The topic was offered before.
   void withdraw(std::uint32_t topic);
-  /// Takes out the next message that tells of them, if anything is new: first what is withdrawn, then what is offered, the oldest first.
+  /// Removes and returns the next message of news, if any: withdrawn topics first, then offered ones from the oldest.
   std::optional<std::string> pop(const Topics& topics);
 
   std::size_t size() const noexcept { return offered_.size() + withdrawn_.size(); }

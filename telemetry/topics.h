@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: a source that makes up names loses only its own
-// (transport/fair_places.h), and topics are not made faster than viewers can receive them. Not real-time.
+// The topics of viewers, one per channel heard: a number, a name, a schema. They are bounded: a source that invents names
+// displaces only its own (transport/fair_places.h). The rate of new topics stays below the speed of viewers. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,19 @@ struct Topic {
 class Topics {
  public:
   static constexpr std::size_t kMax = 1024;
-  /// New ones a second, once kMax came at once. Each goes to every viewer with some kilobytes of schema.
+  /// New topics per second, after a burst of kMax. Each goes to every viewer with some kilobytes of schema.
   static constexpr double kNewPerSecond = 50.0;
 
-  /// The topic `name`, or null when it is not known.
+  /// The topic `name`, or null if unknown.
   const Topic* find(const std::string& name, double now_s);
-  /// Adds a topic that find() does not know, heard from `from`. Null: too many came, it may be added when it is heard again.
+  /// Adds a topic that find() does not know, heard from `from`. Null if too many came; the next message may add it.
   const Topic* add(const std::string& name, const std::string& schema_name, const std::string& schema,
                    double now_s, const LcmSource& from = {});
-  /// The one that the last add() gave up for it.
+  /// The topic that the last add() removed to make room, if any.
   std::optional<std::uint32_t> given_up() const noexcept { return given_up_; }
 
   bool has(std::uint32_t id) const noexcept { return names_.contains(id); }
-  /// The topic of the number `id`, which has() one.
+  /// The topic with the number `id`, for which has() is true.
   const Topic& at(std::uint32_t id) const { return topics_.at(names_.at(id)); }
   std::size_t size() const noexcept { return topics_.size(); }
   template <typename Visit>

@@ -15,9 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-// In the order of preference.
+// In order of preference.
 constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1", "foxglove.websocket.v1"};
-/// Of a viewer's words, what an answer repeats.
+/// Number of characters of a viewer's text that an answer repeats.
 constexpr std::size_t kQuoted = 40;
 
 Json as_json(const Topic& topic) {
@@ -33,7 +33,7 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Opcodes are told from the text's other fields by being there; everything else about `message` is still open.
+/// Returns the "op" of a message, or an empty text. The rest of `message` is still unchecked.
 std::string operation_of(const Json& message) {
   if (!message.is_object()) return "";
   const auto op = message.find("op");
@@ -160,7 +160,7 @@ void Viewer::forget(std::uint32_t topic) {
   by_topic_.erase(found);
 }
 
-// At most one for each topic, so that there are never more than there are topics.
+// A topic has at most one subscription, which bounds the number of subscriptions.
 std::string Viewer::subscribe(std::uint32_t id, std::uint32_t topic, const Topics& topics) {
   if (!topics.has(topic)) return fmt::format("there is no channel {}", topic);
   if (topic_of_.contains(id)) return fmt::format("subscription {} is in use", id);

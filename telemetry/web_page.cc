@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-/// Empty: not served.
+/// The MIME type of a file. Empty: the file is not served.
 std::string_view type_of(const std::filesystem::path& file) {
   const std::filesystem::path extension = file.extension();
   if (extension == ".html") return "text/html; charset=utf-8";
@@ -53,7 +53,7 @@ WebPage::WebPage(bool acting) {
       files_["/" + entry.path().filename().string()] = {std::string(type),
                                                         shared_text(read_text_file(entry.path()))};
     } catch (const InputError&) {
-      // It cannot be read: the request for it is answered with 404.
+      // The file is unreadable. A request for it is answered with 404.
     }
   }
   if (const auto index = files_.find("/index.html"); index != files_.end()) files_["/"] = index->second;

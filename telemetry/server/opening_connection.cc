@@ -15,7 +15,7 @@ namespace http = beast::http;
 
 constexpr auto kLongestRequest_s = std::chrono::seconds(10);
 constexpr std::uint32_t kLargestHeader = 8192;
-/// The page takes scripts and styles from here alone, and no other page may frame it. uPlot styles its elements by attribute.
+/// The page takes scripts and styles only from this server, and no other page may frame it. uPlot sets styles by attribute.
 constexpr const char* kPagePolicy =
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: wss:; "
     "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -52,7 +52,7 @@ void OpeningConnection::on_request(const beast::error_code& error) {
 
 void OpeningConnection::answer(const Request& request) {
   const std::string_view target = view(request.target());
-  // The page shows nothing by itself: what it draws comes by the WebSocket, which is judged below.
+  // The page's files contain no data. Its data come through the WebSocket, which is judged below.
   const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
   if (const WebPage::File* file = shared_.page.find(path_of(target));
       file != nullptr && reads && !beast::websocket::is_upgrade(request))
@@ -105,7 +105,7 @@ void OpeningConnection::respond(Status status, const char* type, SharedText body
   body_ = std::move(body);
   response_.body() = {body_->data(), body_->size()};
   response_.prepare_payload();
-  if (parser_.get().method() == http::verb::head) response_.body() = {};  // its length is told all the same
+  if (parser_.get().method() == http::verb::head) response_.body() = {};  // the header still has the length
   stream_.expires_after(kLongestRequest_s);
   http::async_write(stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
     beast::error_code ignored;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A connection from its beginning to its one request: a file of the page, the metrics, a refusal, or a viewer, which goes on as ViewerConnection.
-// Not real-time.
+// A new connection up to its only request: a file of the page, the metrics, a refusal, or a viewer. A viewer
+// continues as ViewerConnection. Not real-time.
 #pragma once
 
 #include "telemetry/server/shared.h"
@@ -12,7 +12,7 @@ class OpeningConnection : public std::enable_shared_from_this<OpeningConnection>
   OpeningConnection(boost::asio::ip::tcp::socket&& socket, ServerShared& shared);
 
   void start();
-  /// Gives it up: others wait.
+  /// Closes the connection to make room for others.
   void end();
 
  private:
@@ -28,7 +28,7 @@ class OpeningConnection : public std::enable_shared_from_this<OpeningConnection>
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  SharedText body_;  ///< that the response shows
+  SharedText body_;  ///< text of the response
   boost::beast::http::response<boost::beast::http::span_body<const char>> response_;
   ServerShared& shared_;
 };

@@ -79,7 +79,7 @@ class TelemetryServer::Network {
     acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (!error) open(std::move(socket));
-      // Without a free descriptor every further attempt fails at once.
+      // Without a free descriptor, every further attempt fails at once.
       if (error) return wait_and_accept();
       accept();
     });
@@ -104,14 +104,14 @@ class TelemetryServer::Network {
     connection->start();
   }
 
-  // Also looks at the network, which may have changed where nothing comes any more.
+  // Also receives once a second, so that a change of the network is noticed even without messages.
   void report(const std::function<void()>& on_readable, const std::function<void()>& on_second) {
     report_.expires_after(kReport_s);
     report_.async_wait([&, this](const error_code& error) {
       if (error) return;
       on_readable();
       on_second();
-      // A viewer that is given up meanwhile leaves the set.
+      // A viewer that is disconnected meanwhile leaves the set.
       const std::set<std::shared_ptr<ViewerConnection>> viewers = shared_.viewers;
       for (const auto& viewer : viewers) viewer->report_drops();
       report(on_readable, on_second);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all connections of the server share. Not real-time.
+// The data that all connections of the server share. Not real-time.
 #pragma once
 
-#include <utility>  // which Boost 1.74's asio forgets to include
+#include <utility>  // Boost 1.74's asio needs it, but does not include it
 
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
@@ -24,14 +24,14 @@ struct ServerShared {
   AccessRules rules;
   const Topics& topics;
   std::function<SharedText(bool packed)> metrics;
-  Acting* acting = nullptr;  ///< null: no orders are taken
+  Acting* acting = nullptr;  ///< null: orders are not taken
   const WebPage page;
-  std::string session;  ///< tells viewers one start of the server from the next
-  std::list<std::weak_ptr<OpeningConnection>> opening;  ///< the oldest first
+  std::string session;  ///< distinguishes one start of the server from the next
+  std::list<std::weak_ptr<OpeningConnection>> opening;  ///< oldest first
   std::set<std::shared_ptr<ViewerConnection>> viewers;
   std::uint64_t viewers_so_far = 0;
   std::uint64_t refused = 0;
-  std::uint64_t dropped_before = 0;  ///< of viewers that are gone
+  std::uint64_t dropped_before = 0;  ///< messages that earlier viewers missed
 };
 
 }  // namespace strainwave

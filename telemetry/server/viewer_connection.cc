@@ -15,10 +15,10 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-// A viewer that answers no ping as long has gone.
+// A viewer that answers no ping for this long is gone.
 constexpr auto kIdle_s = std::chrono::seconds(30);
 constexpr auto kHandshake_s = std::chrono::seconds(10);
-// What the system buffers comes on top of the queue's bound.
+// The system's send buffer adds to the bound of the queue.
 constexpr int kSystemBuffer = 256 * 1024;
 
 }  // namespace
@@ -34,7 +34,7 @@ void ViewerConnection::start(const beast::http::request<beast::http::empty_body>
                              std::string_view subprotocol) {
   beast::error_code ignored;
   auto& tcp = beast::get_lowest_layer(stream_);
-  tcp.expires_never();  // the WebSocket has times of its own
+  tcp.expires_never();  // the WebSocket has its own time-outs
   tcp.socket().set_option(boost::asio::socket_base::send_buffer_size(kSystemBuffer), ignored);
   tcp.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
   stream_.set_option(websocket::stream_base::timeout{kHandshake_s, kIdle_s, true});
@@ -128,7 +128,7 @@ void ViewerConnection::send() {
   });
 }
 
-// Whatever is under way ends with an error, and calls this again.
+// Pending operations end with an error and call this again.
 void ViewerConnection::end() {
   if (shared_.viewers.erase(shared_from_this()) > 0) shared_.dropped_before += queue_.dropped();
   beast::error_code ignored;

@@ -24,9 +24,9 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   void publish(std::uint32_t topic, std::uint64_t received_ns, const SharedText& json);
   void add_topic(std::uint32_t topic);
   void remove_topic(std::uint32_t topic);
-  /// Tells the viewer what it has missed since the last call.
+  /// Reports to the viewer how many messages it has missed, if more than at the last call.
   void report_drops();
-  /// Sends it before all data.
+  /// Queues a text ahead of all data.
   void say(std::string text);
   std::uint64_t id() const noexcept { return viewer_.id(); }
   std::uint64_t dropped() const noexcept { return queue_.dropped(); }
@@ -34,7 +34,7 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
  private:
   void read();
   void on_message(const boost::beast::error_code& error);
-  /// Takes out what is to be sent next: news of topics and what else waits by turns, so that neither keeps the other waiting.
+  /// Removes and returns the next frame. News of topics and other frames alternate, so that neither blocks the other.
   std::optional<OutgoingFrame> next();
   void send();
   void end();

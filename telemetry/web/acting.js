@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders to joints: enable, hold, jog while a button is held, and a stop of all joints. The server has this file only where it has an operator's
-// key (--key), signs the orders, and takes them from this page alone, if it was opened with the token that the server printed.
-// Orders quote session and challenge of the state that the page shows: the daemon refuses those that come late.
+// Orders to joints: enable, hold, jog while a button is held, and a stop of all joints. The server provides this file only with an operator's key
+// (--key). It signs the orders, and accepts them only from this page. All but stop need the token that the server printed.
+// Orders quote session and challenge of the state on the page, so that the daemon refuses late ones.
 
 import {make} from './dom.js';
 
-const REPEAT_MS = 100; // of a jog: the server ends it after 0.3 s of silence
-const STOP_ANSWER_MS = 1000; // the server answers a stop at once, and counts the joints' answers later
+const REPEAT_MS = 100; // interval of jog messages; the server ends a jog after 0.3 s of silence
+const STOP_ANSWER_MS = 1000; // time-out for the first answer; the server confirms a stop at once, and reports the joints' answers later
 const KEPT_ANSWERS = 5;
 
 export class Acting {
-  /** `bench`: what the page shows: joints() all live ones by name, each {channel, last, limits}; chosen() the name of the one whose orders are shown, or null. */
+  /** `bench`: data of the page. joints(): all live joints by name, each {channel, last, limits}; chosen(): the name of the chosen joint, or null. */
   constructor(connection, bench) {
     this.connection = connection;
     this.bench = bench;
@@ -53,7 +53,7 @@ export class Acting {
     this.holdButton.addEventListener('click', () => this.order('hold'));
     this.speed.addEventListener('input', () => this.show());
     const isSpace = (event) => event.code === 'Space' && !event.ctrlKey && !event.metaKey && !event.altKey;
-    // Wherever the focus is: the space bar presses no button and opens no list here, and a held Enter presses a button once.
+    // With any focus, the space bar stops and does not press a button or open a list. A held Enter presses a button once.
     addEventListener('keydown', (event) => {
       if (event.key === 'Enter' && event.repeat) event.preventDefault();
       if (!isSpace(event)) return;
@@ -84,7 +84,7 @@ export class Acting {
     document.addEventListener('visibilitychange', () => document.hidden && this.endJog());
   }
 
-  /** Shows the token; after each new connection. The address, which others may see, has it only at first; the tab keeps it. */
+  /** Sends the token, after each new connection. The token moves from the address, which others may see, into the state of the tab. */
   open() {
     this.endJog();
     const given = new URLSearchParams(location.hash.slice(1)).get('token');
@@ -150,7 +150,7 @@ export class Acting {
     this.send({action: 'jog-end', jog: number});
   }
 
-  /** A message of the server. */
+  /** Takes a message of the server. */
   take(message) {
     if (message.op === 'acting') {
       this.jogShare = message.jog_speed_share;
@@ -168,7 +168,7 @@ export class Acting {
     while (this.answers.children.length > KEPT_ANSWERS) this.answers.lastChild.remove();
   }
 
-  /** Of the chosen joint: what may be ordered. */
+  /** Shows the possible orders for the chosen joint. */
   show() {
     const name = this.bench.chosen();
     const joint = this.bench.joints().get(name);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A viewer of strainwave-telemetry: the Foxglove WebSocket protocol, of which it needs four messages. Connects again when the server is gone.
+// A viewer of strainwave-telemetry. It uses four messages of the Foxglove WebSocket protocol, and reconnects when the server is gone.
 
 const RETRY_MS = 1000;
 const HEAD_BYTES = 13; // opcode, subscription, time of receipt in nanoseconds
 
-/** The joint of a topic PREFIX.JOINT.KIND; the usual prefix SW is left out. Undefined: the topic is of another kind. */
+/** The joint of a topic PREFIX.JOINT.KIND; the default prefix SW is left out. Undefined if the topic is of another kind. */
 export function jointOf(topic, kinds = 'STATE') {
   return new RegExp(`^(?:SW\\.)?(.*)\\.(?:${kinds})$`).exec(topic)?.[1];
 }
 
 export class Connection {
   /** `onMessage(topic, text, received_s)`: the JSON text of one message. `onChange(text)`: the state of the connection in words.
-   *  `onControl(message)`: what is said besides topics. */
+   *  `onControl(message)`: messages that are not about topics. */
   constructor(url, onMessage, onChange, onControl) {
     this.url = url;
     this.onMessage = onMessage;
@@ -22,7 +22,7 @@ export class Connection {
   }
 
   open() {
-    this.topics = new Map(); // by subscription, which has the topic's number
+    this.topics = new Map(); // by subscription, whose number is that of the topic
     const socket = new WebSocket(this.url, ['foxglove.sdk.v1', 'foxglove.websocket.v1']);
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
@@ -49,7 +49,7 @@ export class Connection {
     }
   }
 
-  /** False: there is no connection. */
+  /** Returns false if there is no connection. */
   send(message) {
     if (this.socket.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last minutes of one joint: columns of numbers in rings. They grow to their capacity and are then reused, so that invented joints cost little.
+// The last minutes of one joint, as ring buffers of numbers. They grow up to their capacity, so that short-lived names of joints take little memory.
 
-// Plotted fields of state_v1, and what is derived from them.
+// Plotted fields of state_v1, and values derived from them.
 export const FIELDS = [
   'setpoint_position_rad', 'joint_position_rad', 'link_position_rad', 'error_mrad', 'joint_velocity_rad_s',
   'torque_commanded_Nm', 'torque_feedforward_Nm', 'torque_feedback_Nm', 'learned_load_Nm', 'temperature_used_C', 'friction_factor',
@@ -9,7 +9,7 @@ export const FIELDS = [
 ];
 
 export const KEPT_S = 600;
-// Denser samples are thinned, so that ten minutes of 64 joints fit into a small laptop.
+// Faster samples are thinned out, so that ten minutes of 64 joints fit into the memory of a small laptop.
 const MOST_PER_S = 50;
 const FIRST_ROWS = 256;
 
@@ -33,7 +33,7 @@ export class History {
     this.clear();
   }
 
-  // Rows stand in their order until the capacity is reached.
+  // The rows are in order until the capacity is reached, so a plain copy suffices.
   grow() {
     const rows = Math.min(this.capacity, 2 * this.time_s.length);
     const larger = (column) => {
@@ -52,10 +52,10 @@ export class History {
     this.last_s = -Infinity;
   }
 
-  /** False: too soon after the sample before. A time that falls begins anew. */
+  /** Returns false if the sample is too close to the last one. A time that decreases clears the history. */
   add(time_s, values) {
     if (time_s < this.last_s) this.clear();
-    // Half a step of slack: a rate of just MOST_PER_S with jitter is kept whole.
+    // Half a step of tolerance keeps every sample at a rate of MOST_PER_S with jitter.
     if (time_s - this.last_s < 0.5 * this.leastStep_s) return false;
     if (this.size === this.time_s.length && this.size < this.capacity) this.grow();
     this.time_s[this.next] = time_s;

@@ -8,16 +8,16 @@ import {Reports} from './reports.js';
 import {JointTable} from './table.js';
 
 const REDRAW_MS = 100;
-const SILENT_S = 10; // of a joint that is gone
+const SILENT_S = 10; // after this silence a joint counts as gone
 const element = (id) => document.getElementById(id);
 
 const live = new Map(); // joint to {history, channel, last, received_s, limits}
-let recording = null; // joint to what readRecording() says; null: live
+let recording = null; // result of readRecording(); null: live
 let chosen = null;
 let pausedAt_s = null;
 let zoom = null; // [from_s, to_s]
 let actingAsked = false;
-let acting = null; // what may order motions, where the server takes orders
+let acting = null; // the Acting object, if the server takes orders
 let vocabulary = {faults: {}, notices: {}};
 
 const joints = () => recording ?? live;
@@ -61,7 +61,7 @@ function redraw() {
   if (joint) plots.show(joint.history, ...span(), joint.fault_s ?? null);
 }
 
-/** But the chosen joint, whose last plots may tell why. */
+/** Keeps the chosen joint, because its last plots may show the cause. */
 function forgetSilent() {
   for (const [name, {received_s}] of live) {
     if (name === chosen || now_s() - received_s < SILENT_S) continue;
@@ -176,7 +176,7 @@ const connection = new Connection(`${scheme}://${location.host}/${location.searc
   if (!recording) element('connection').textContent = text;
 }, onControl);
 
-/** A server that takes no orders says nothing of them, and has no acting.js. */
+/** A server without orders does not send metadata.acting, and has no acting.js. */
 async function onControl(message) {
   if (message.op === 'serverInfo' && message.metadata?.acting) {
     if (actingAsked) return acting?.open();

@@ -16,7 +16,7 @@ export const PLOTS = [
 
 const dark = () => matchMedia('(prefers-color-scheme: dark)').matches;
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-// Enough digits for a count of an encoder at any position.
+// Enough digits to resolve one encoder count at any position.
 const number = (value) => String(Number(value.toPrecision(6)));
 const shown = (u, value) => (value === null || value === undefined ? '–' : number(value));
 
@@ -77,7 +77,7 @@ export class Plots {
     }
   }
 
-  /** Live times are of the day; those of a recording count from its begin. */
+  /** Live times are times of day. Times of a recording count from its begin. */
   timeText(time_s, digits = 3) {
     if (time_s < 1e8) return `${time_s.toFixed(digits === 0 ? 2 : digits)} s`;
     const date = new Date(time_s * 1000);
@@ -99,7 +99,7 @@ export class Plots {
     u.ctx.restore();
   }
 
-  /** `mark_s`: the instant of a fault, or null. */
+  /** `mark_s`: the time of a fault, or null. */
   show(history, from_s, to_s, mark_s = null) {
     this.mark_s = mark_s;
     for (const {chart, names} of this.charts) {

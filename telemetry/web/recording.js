@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings as histories by joint: CSV of `strainwavectl export` and of flight records, and MCAP of `strainwavectl export --mcap`.
+// Reads recordings as histories by joint: CSV of `strainwavectl export` and of flight records, and MCAP of `strainwavectl export --mcap`.
 import {jointOf} from './connection.js';
 import {decompress} from './fzstd.mjs';
 import {History, valuesOf} from './history.js';
@@ -52,7 +52,7 @@ function* recordsOf(bytes, from = 0) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   for (let at = from; at + 9 <= bytes.length;) {
     const length = Number(view.getBigUint64(at + 1, true));
-    if (at + 9 + length > bytes.length) return; // the file's writer was stopped here
+    if (at + 9 + length > bytes.length) return; // the writer was interrupted here
     yield {op: bytes[at], body: bytes.subarray(at + 9, at + 9 + length)};
     at += 9 + length;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports of commissioning and of the doctor. Lists of objects in JSON become tables. Of a report.html its tables, texts and pictures are
-// made anew: every text goes in as text, and nothing of the file can run, refer to another file, or take the place of the page's own elements.
+// Reports of commissioning and of the doctor. Lists of objects in JSON become tables. The tables, texts and pictures of a report.html are
+// rebuilt, with every text as plain text. So nothing in the file can run, refer to another file, or replace elements of the page.
 
 import {make} from './dom.js';
 
@@ -64,7 +64,7 @@ export function readReport(name, text) {
   const isTable = ([, value]) => Array.isArray(value) && value.length > 0 && value.every(isObject);
   if (!isObject(report)) throw new Error(expected);
   const entries = Object.entries(report);
-  // A healthy joint has a list without findings.
+  // The report of a healthy joint has an empty list.
   if (!entries.some(([, value]) => Array.isArray(value))) throw new Error(expected);
   const isFile = ([, value]) => typeof value === 'string' && value.includes('\n');
   const facts = entries.filter((entry) => !isTable(entry) && !isFile(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);

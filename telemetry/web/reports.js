@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reports that were opened, newest first. This browser keeps them until they are removed.
+// The opened reports, newest first. This browser stores them until the user removes them.
 import {make} from './dom.js';
 import {readReport} from './report.js';
 
 const KEY = 'strainwave.reports';
 
-/** Array of {name, opened, text}; what is no such report, as another program may have left it, is left out. */
+/** Array of {name, opened, text}. It leaves out other entries, which another program may have stored. */
 function kept() {
   try {
     return JSON.parse(localStorage.getItem(KEY)).filter((report) => ['name', 'opened', 'text'].every((key) => typeof report[key] === 'string'));
@@ -22,7 +22,7 @@ export class Reports {
   #list;
   #shown = new Map(); // text to element
 
-  /** Shows in `list`, of `section`, what is kept. */
+  /** Shows the stored reports in `list` of `section`. */
   constructor(section, list) {
     this.#section = section;
     this.#list = list;
@@ -30,12 +30,12 @@ export class Reports {
       try {
         this.#show(report);
       } catch {
-        // Another version of the page could read it.
+        // A report of another version of the page may be unreadable here.
       }
     }
   }
 
-  /** Shows and keeps the report in `text`, a file called `name`. Throws Error with a text for the user. */
+  /** Shows and stores the report in `text`, a file called `name`. Throws Error with a text for the user. */
   open(name, text) {
     const report = {name, opened: new Date().toLocaleString('sv-SE').slice(0, 16), text};
     const element = this.#show(report);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of joints. Every text goes in as text: names come from the network.
+// The table of joints. It inserts every text as plain text, because names come from the network.
 
-// Without the sign of a rounded zero.
+// Removes the sign of a value that rounds to zero.
 const number = (value, digits) => (typeof value === 'number' ? value.toFixed(digits).replace(/^-(0\.?0*)$/, '$1') : '–');
 
 export class JointTable {
-  /** `onChoose(name)`: a joint was chosen. */
+  /** Calls `onChoose(name)` when the user chooses a joint. */
   constructor(body, onChoose) {
     this.body = body;
     this.onChoose = onChoose;
@@ -22,7 +22,7 @@ export class JointTable {
     for (const [other, row] of this.rows) row.setAttribute('aria-selected', String(other === name));
   }
 
-  /** The joint `by` rows below the chosen one. */
+  /** Chooses the joint `by` rows below the chosen one. */
   move(by) {
     const names = this.names();
     if (names.length === 0) return;
@@ -41,7 +41,7 @@ export class JointTable {
     this.body.replaceChildren();
   }
 
-  /** The latest state of a joint. `silent_s`: since it came. */
+  /** Shows the latest state of a joint. `silent_s`: its age. */
   show(name, state, words, silent_s) {
     const row = this.rows.get(name) ?? this.add(name);
     const error_rad = state.setpoint_position_rad - (state.link_position_rad ?? state.joint_position_rad);
