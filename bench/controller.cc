@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bench/controller: what the control law of one joint costs beside the exponentials that it cannot avoid.
-// The law: six rules (five over temperature, one for zero velocity), integrator, over
-// a joint that follows a sine. Its exponentials: the five memberships over temperature when the temperature
-// is new, and one over velocity; they are timed with the very arguments that the law gives them. Both sides
-// run in alternating slices; the ratio of the medians is the figure.
+// bench/controller: the cost of the control law of one joint, relative to its unavoidable exponentials. The
+// law has six rules (five over temperature, one for zero velocity) and an integrator, for a joint that
+// follows a sine. It needs five exponentials for the memberships when the temperature is new, and one over
+// velocity in each step. They are timed with the same arguments as in the law. Both sides run in alternating
+// slices; the result is the ratio of the medians.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr int kSlices = 400;
 
 volatile double sink;
 
-/// Nanoseconds for each of the samples.
+/// Mean time of one sample, in ns.
 double ns_per_sample(auto&& work) {
   const auto start = std::chrono::steady_clock::now();
   for (int pass = 0; pass < kPasses; ++pass) sink = work();
@@ -61,7 +61,7 @@ double law(ScheduledController& controller, const std::vector<ControllerInput>& 
   return sum;
 }
 
-/// What the law passes to exp over those samples.
+/// The arguments that the law passes to exp over those samples.
 std::vector<double> arguments_of_law(const FuzzyFriction& friction,
                                      const std::vector<ControllerInput>& inputs, int temperature_every) {
   std::vector<double> arguments;

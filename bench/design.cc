@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the four controllers take, designed and certified. Prints a table.
+// Times the design and the certification of the four controllers. Prints a table.
 #include <chrono>
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EPGS against NLopt's global optimisers on the costs of the friction fits: how often each reaches the target
-// within the same processor time on one core, and how soon. Prints a table.
+// Compares EPGS with NLopt's global optimisers on the costs of the friction fits. It shows how often each
+// reaches the target within the same processor time on one core, and how soon. Prints a table.
 //
 //   estimation_benchmark [SEEDS [SECONDS]]    default 100 seeds, 1 s each
 #include <nlopt.h>
@@ -41,7 +41,7 @@ struct Outcome {
 
 struct TimeIsUp {};
 
-// Counts time and success around a cost.
+// Tracks time and success during evaluations of a cost.
 class Watch {
  public:
   Watch(const Task& task, double limit_s) : task_(task), limit_s_(limit_s), start_s_(processor_time_s()) {}
@@ -77,7 +77,7 @@ double nlopt_cost(unsigned count, const double* x, double* gradient, void* data)
   return sample.value;
 }
 
-// EPGS runs its own generations; where it ends before the time is up, that is its result.
+// EPGS chooses its own number of generations. It may end before the time limit.
 Outcome run_epgs(const Task& task, unsigned seed, double limit_s) {
   Watch watch(task, limit_s);
   EpgsOptions options = task.options;
@@ -109,9 +109,9 @@ Outcome run_nlopt(const Task& task, nlopt_algorithm algorithm, bool with_local, 
     nlopt_set_ftol_rel(local, 1e-5);
     nlopt_set_maxeval(local, 300);
     nlopt_set_local_optimizer(optimiser, local);
-    nlopt_destroy(local);  // it was copied
+    nlopt_destroy(local);  // the optimiser has copied it
   }
-  // A start inside the box that depends on the seed.
+  // The start lies inside the box and depends on the seed.
   Eigen::VectorXd x(task.lower.size());
   for (unsigned i = 0; i < n; ++i) {
     const auto v = static_cast<Eigen::Index>(i);
@@ -119,7 +119,7 @@ Outcome run_nlopt(const Task& task, nlopt_algorithm algorithm, bool with_local, 
     x(v) = task.lower(v) + part * (task.upper(v) - task.lower(v));
   }
   double value = 0.0;
-  nlopt_optimize(optimiser, x.data(), &value);  // its status does not matter: the watch saw every evaluation
+  nlopt_optimize(optimiser, x.data(), &value);  // ignores the status: the watch saw every evaluation
   nlopt_destroy(optimiser);
   return watch.outcome();
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What several joints cost in one loop: cycles of 8, 16, 32 and 64 simulated joints, all moving, in
-// alternating slices, so that the machine's moods hit all alike. Prints the cost per joint and cycle, its
-// ratio to that of 8 joints, and the share of one processor that a loop of the configured period would take.
-// Processor time, not wall time.
+// Measures the cost of several joints in one loop: cycles of 8, 16, 32 and 64 moving simulated joints. Slices
+// alternate, so that disturbances of the machine affect all counts alike. Prints the cost per joint and
+// cycle, its ratio to that of 8 joints, and the share of one processor at the configured period. Processor
+// time, not wall time.
 #include <ctime>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double processor_time_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Joints that never rest: each goes to and fro, out of step with the others.
+/// Joints in constant motion: each moves back and forth, out of phase with the others.
 class Arm {
  public:
   explicit Arm(std::size_t joints)
@@ -40,7 +40,7 @@ class Arm {
     }
   }
 
-  /// Seconds per joint and cycle over one slice.
+  /// Seconds per joint and cycle, over one slice.
   double slice_s() {
     const int cycles = kSliceJointCycles / static_cast<int>(joints_);
     const double start_s = processor_time_s();
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   arms.reserve(counts.size());
   for (const std::size_t count : counts) arms.push_back(std::make_unique<Arm>(count));
   std::vector<std::vector<double>> costs_s(counts.size());
-  for (const auto& arm : arms) arm->slice_s();  // warm
+  for (const auto& arm : arms) arm->slice_s();  // warm-up
   for (int slice = 0; slice < slices; ++slice)
     for (std::size_t i = 0; i < arms.size(); ++i) costs_s[i].push_back(arms[i]->slice_s());
   std::printf("joints  ns per joint and cycle  ratio to 8  %% of one processor at 1 kHz\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decoding one edge of an encoder costs, without the kernel's part: a bound on the rate that the
-// fallback could ever reach.
+// Measures the decoding of one encoder edge without the kernel's part. This bounds the rate that the software
+// fallback can reach.
 #include <benchmark/benchmark.h>
 
 #include "drivers/gpio/quadrature_decoder.h"

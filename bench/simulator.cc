@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast the simulated joint is: sub-steps of its physics and whole periods of the plant. Read `items_per_second`.
+// Measures the speed of the simulated joint: sub-steps of its physics and whole periods of the plant. Read `items_per_second`.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSubsteps = 10;
 
-/// Swings with the given amplitude: 0.1 rad/s stays in the Stribeck range, where each slope costs an exponential.
+/// Moves back and forth up to a speed. 0.1 rad/s stays in the Stribeck range, where each slope needs an exponential.
 void physics_substep(benchmark::State& bench) {
   const JointParameters joint = reference_joint();
   JointInput input;
@@ -32,7 +32,7 @@ void physics_substep(benchmark::State& bench) {
 }
 BENCHMARK(physics_substep)->Arg(100)->Arg(3000)->ArgName("speed_mrad_s");
 
-/// One period of the closed loop with the realistic plant and the PID, which keeps it moving.
+/// One period of the closed loop with the realistic plant and a PID controller, which keeps the joint moving.
 void plant_period(benchmark::State& bench) {
   JointPlantConfig config = realistic_plant();
   config.substeps = kSubsteps;
@@ -50,7 +50,7 @@ void plant_period(benchmark::State& bench) {
 }
 BENCHMARK(plant_period);
 
-/// One period of the flexible joint under a torque that swings it, without and with every effect.
+/// One period of the flexible joint under an alternating torque, without and with all effects.
 void flexible_plant_period(benchmark::State& bench) {
   JointPlantConfig config = flexible_plant();
   if (bench.range(0) != 0) {

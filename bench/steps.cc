@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bench/steps: what JointController::step() costs, in each of the ways in which the daemon runs it: on moves, a stream and at rest, with a
-// new temperature every period. A run of the closed loop is recorded once and replayed: the same readings and orders make the same steps,
-// without the simulated joint between them. Prints processor time of the mean step of one joint and of 64 in turn, of the slowest step of
-// the run, and the share of one processor that 64 joints take at 1 kHz. Of every figure the least of all repetitions is taken, which other
-// programs disturb the least.
+// bench/steps: the cost of JointController::step() on moves, on a stream and at rest, with a new temperature every
+// period. It records one closed-loop run and replays it without the simulated joint. The same readings and orders
+// give the same steps. Prints processor time of the mean step, for one joint and for 64 in turn, and the slowest
+// step of the run. Also prints the share of one processor that 64 joints take at 1 kHz. Each figure is the minimum
+// over all repetitions, which other programs disturb the least.
 //
-//   steps_benchmark [REPETITIONS [KIND]]     one repetition of one kind is what callgrind is given (docs/performance.md)
+//   steps_benchmark [REPETITIONS [KIND]]     callgrind runs one repetition of one kind (docs/performance.md)
 #include <ctime>
 
 #include <algorithm>
@@ -29,12 +29,12 @@ namespace {
 
 constexpr double kPeriod_s = 0.001;
 constexpr int kSteps = 6000;
-constexpr int kStreamBegins = 3000;  // until then moves ...
-constexpr int kStreamEnds = 5000;    // ... and from here on rest
+constexpr int kStreamBegins = 3000;  // moves before this step ...
+constexpr int kStreamEnds = 5000;    // ... and rest from this one on
 constexpr int kMoveEvery = 500;
 constexpr int kSampleEvery = 10;
 constexpr std::size_t kJoints = 64;
-constexpr int kOfMany = 8;  // repetitions to one of all joints
+constexpr int kOfMany = 8;  // repetitions of one joint for each repetition of all joints
 constexpr double kAmbient_C = 10.0;
 constexpr double kTemperatureNoise_C = 0.02;
 
@@ -68,7 +68,7 @@ void order(JointController& controller, int k) {
       k == kStreamBegins, 0.0, {});
 }
 
-/// One joint as it was recorded, ready to be replayed.
+/// One recorded joint, ready for replay.
 class Replay {
  public:
   Replay(const Kind& kind, const std::vector<JointMeasurement>& run)
@@ -91,7 +91,7 @@ class Replay {
   JointController controller_;
 };
 
-/// What the joint's sensors read over the run.
+/// The sensor readings of the joint over the run.
 std::vector<JointMeasurement> record(const Kind& kind) {
   JointController controller(extended_config(kind.plant, kind.table, kind.motion));
   controller.load(kind.table);
@@ -122,7 +122,7 @@ double processor_time_ns() {
   return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
-/// Nanoseconds of a step, of `joints` in turn.
+/// Mean time of a step in ns, over `joints` in turn.
 double mean_ns(std::vector<Replay>& joints) {
   for (Replay& joint : joints) joint.begin();
   const double start_ns = processor_time_ns();
@@ -133,7 +133,7 @@ double mean_ns(std::vector<Replay>& joints) {
   return (processor_time_ns() - start_ns) / (kSteps * static_cast<double>(joints.size()));
 }
 
-/// Of every step of the run the least time so far, the clock's own included.
+/// Updates the least time of every step of the run. It includes the time of the clock call.
 void time_each(Replay& joint, std::vector<double>& least_ns) {
   joint.begin();
   for (int k = 0; k < kSteps; ++k) {

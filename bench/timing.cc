@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bench/timing: wake-up latency of our loop beside cyclictest's, in alternating slices on the same machine.
+// bench/timing: compares the wake-up latency of the daemon's loop with cyclictest's, in alternating slices on one machine.
 //   timing [SLICES] [SECONDS_PER_SLICE] [JOINTS]
-// Both sides' latencies go through the same histogram, so that the ratio compares like with like. Needs the
+// The latencies of both sides go through the same histogram, so that the ratio compares like with like. Needs the
 // right to SCHED_FIFO and the program cyclictest (Debian: rt-tests).
 
 #include <unistd.h>
@@ -87,7 +87,7 @@ Slice run_ours(double seconds, int joints, const GainTable& table) {
   }
   loop.start();
   if (!loop.real_time_refusal().empty()) throw InputError(loop.real_time_refusal());
-  // The first order is taken with the first reading; enabling must come a cycle later.
+  // The joint takes the first order with its first reading. The order to enable must follow a cycle later.
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   for (std::size_t i = 0; i < loop.joint_count(); ++i) loop.joint(i).orders().push(order(OrderKind::kEnable));
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -113,7 +113,7 @@ Slice run_cyclictest(double seconds) {
     std::int64_t microseconds = 0;
     std::int64_t count = 0;
     if (line.empty() || line[0] == '#' || !(std::istringstream(line) >> microseconds >> count)) continue;
-    // cyclictest cuts to whole microseconds: the middle of each is the fair place.
+    // cyclictest truncates to whole microseconds, so the middle of each is unbiased.
     for (std::int64_t i = 0; i < count; ++i) histogram.add(microseconds * 1000 + 500);
   }
   std::remove(output.c_str());
