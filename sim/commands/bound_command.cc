@@ -20,7 +20,7 @@ struct BoundOptions {
   std::string table;
 };
 
-// What the programme of a flexible joint has besides: the counted sum, and the least settling times.
+// Adds the row of a flexible joint, which also has the counted sum and the least settling time.
 void add_flexible_row(TextTable& result, const std::string& reference, const ClosedLoopConfig& config,
                       const std::vector<Contender>& contenders) {
   const LinkLimitConfig motion = link_limit_of_run(config);

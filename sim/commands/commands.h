@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The subcommands of strainwave-sim. Each adds itself to the program and leaves in `chosen` what is to be done when
-// it is given; that throws InputError. Offline.
+// The subcommands of strainwave-sim. Each adds itself to the program. The one that the user gives leaves its
+// action in `chosen`; the action throws InputError. Offline.
 #pragma once
 
 #include <filesystem>
@@ -26,11 +26,11 @@ void add_temperature_command(CLI::App& program, CommandBody& chosen);
 void add_own_loop_command(CLI::App& program, CommandBody& chosen);
 void add_ablation_command(CLI::App& program, CommandBody& chosen);
 
-/// The folder `name` ("data") of the installation, or of the source tree the program was built from. Throws
-/// InputError when there is neither.
+/// Returns the folder `name` ("data") of the installation, or of the source tree that the program was built
+/// from. Throws InputError if neither exists.
 std::filesystem::path shared_folder(const std::filesystem::path& name);
 
-/// Adds --tables, the folder of a study's gain tables; and that folder, by default the installed one.
+/// Adds --tables, the folder of a study's gain tables. tables_folder() returns it, by default the installed one.
 void add_tables_option(CLI::App& command, std::string& tables);
 std::filesystem::path tables_folder(const std::string& tables);
 
@@ -42,7 +42,7 @@ struct RandomJoints {
 /// Adds --joints and --seed.
 void add_random_joints_options(CLI::App& command, RandomJoints& joints, const std::string& number_of);
 
-/// What a single closed loop is made of, as the user gives it.
+/// The elements of a single closed loop, as the user gives them.
 struct LoopOptions {
   std::string plant = "realistic";
   std::string reference_rad = "constant:0.1";

@@ -42,7 +42,7 @@ std::size_t number_of(const std::string& name, const std::vector<Contender>& con
   return static_cast<std::size_t>(found - contenders.begin());
 }
 
-/// The daemon's controller beside what a user would take instead, on the grid alone.
+/// Compares the daemon's controller with a user's alternatives, on the grid alone.
 void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::vector<Contender> contenders = {daemon_contender(gains)};
   for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
@@ -56,7 +56,7 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::cout << "written to " << out.string() << "\n";
 }
 
-/// The daemon's controller, configured wrongly, on the grid and on joints drawn at random.
+/// Runs the daemon's controller with wrong configurations, on the grid and on joints drawn at random.
 void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
   const auto print = [](const std::string& title, const std::vector<FlexibleCell>& cells,
                         const Contender& daemon) {

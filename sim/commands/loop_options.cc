@@ -49,7 +49,7 @@ void add_loop_options(CLI::App& command, LoopOptions& options) {
 }
 
 ClosedLoopConfig loop_config(const LoopOptions& options) {
-  constexpr double kLongest_s = 1e5;  // what of it is kept fits into memory
+  constexpr double kLongest_s = 1e5;  // the recorded trace fits into memory
   if (!(options.duration_s > 0.0 && options.duration_s <= kLongest_s))
     throw InputError("--duration_s = " + number_text(options.duration_s) +
                      ": a number above 0, at most 100000, is allowed");

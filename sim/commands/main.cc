@@ -13,7 +13,7 @@ std::filesystem::path shared_folder(const std::filesystem::path& name) {
   std::error_code error;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   const auto installed = folder.parent_path() / "share" / "strainwave" / name;
-  // build/PRESET/bin in a source tree.
+  // In a source tree the program is in build/PRESET/bin.
   const auto tree = folder.parent_path().parent_path().parent_path() / name;
   for (const auto& place : {installed, tree})
     if (!error && std::filesystem::is_directory(place)) return place;

@@ -42,7 +42,7 @@ std::string trace_csv(const std::vector<TracePoint>& trace) {
   return text;
 }
 
-/// One column per side: of a rigid joint there is one.
+/// One column per side of the gear; a rigid joint has one column.
 TextTable statistics_table(const std::vector<std::string>& names, const std::vector<LoopStatistics>& sides) {
   TextTable table;
   table.header = {"quantity"};
@@ -73,7 +73,7 @@ double counted_pi2(const std::vector<TracePoint>& trace) {
   return sum;
 }
 
-/// The limit of the link where there is one, else of the joint. A plant that can do anything has none.
+/// Prints the limit of the link if there is one, else of the joint. A plant without a torque limit has none.
 void print_limit(const ClosedLoopConfig& config, const LoopStatistics& judged, double counted) {
   if (!std::isfinite(config.plant.motor.peak_torque_Nm)) return;
   const char* of = config.plant.effects.transmission ? " of the link" : "";
@@ -90,7 +90,7 @@ void print_limit(const ClosedLoopConfig& config, const LoopStatistics& judged, d
   }
 }
 
-/// What one notices of the last move: when it is over, and what is left.
+/// Prints the duration of the last move, and the error that remains.
 void print_arrival(const std::vector<TracePoint>& link, bool flexible) {
   constexpr double kArcSecond_rad = 4.848137e-6;
   const double target_rad = link.back().setpoint_position_rad;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a study ends: its summary on the screen, and a folder with a CSV of everything, the figure, and one page.
+// The output of a study: its summary on the screen, and a folder with a CSV file of all details, the figure and one page.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// Prints `summary`, writes <name>.csv, <name>.svg and <name>.html into `directory`, which is there. Throws InputError.
+/// Prints `summary`, writes <name>.csv, <name>.svg and <name>.html into the existing `directory`. Throws InputError.
 void write_study(const std::string& name, const TextTable& summary, const TextTable& details,
                  const Figure& figure, const std::filesystem::path& directory);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a command to its effect: a delay in fractions of a period, with jitter. Real-time safe. Time is counted in periods.
+// The delay between a command and its effect, in fractions of a period, with jitter. Real-time safe. Time is counted in periods.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@ inline constexpr double kMaxDelayPeriods = 16.0;
 
 struct DelayConfig {
   double periods = 0.0;         ///< 0..kMaxDelayPeriods
-  double jitter_periods = 0.0;  ///< each command is late by up to this besides, uniformly; 0..4
-  std::uint64_t seed = 1;       ///< of the jitter
+  double jitter_periods = 0.0;  ///< additional delay of each command, uniform from 0 to this; 0..4
+  std::uint64_t seed = 1;       ///< seed of the jitter
 };
 
-/// Holds what was commanded until it is due; a command never overtakes an earlier one.
+/// Keeps each command until it is due. A command never overtakes an earlier one.
 class DelayLine {
  public:
   explicit DelayLine(const DelayConfig& config) noexcept : config_(config), random_(config.seed) {}
 
-  /// A command at `now`.
+  /// Takes a command at `now`.
   void push(double now, double torque_Nm) noexcept {
     double due = now + config_.periods;
-    // The standard leaves distributions to the library; this makes a run the same everywhere.
+    // The results of standard distributions depend on the library; this formula makes a run the same everywhere.
     if (config_.jitter_periods > 0.0)
       due += config_.jitter_periods * static_cast<double>(random_() >> 11U) * 0x1p-53;
     if (count_ > 0) due = due > newest().due ? due : newest().due;

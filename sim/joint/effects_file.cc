@@ -33,7 +33,7 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
     value = value > 0.0 ? section.number_or(key, value, kPositive) : section.number(key, kPositive);
   };
   stiffness("stiffness_1_Nm_rad", spring.stiffness_1_Nm_rad);
-  // One slope is enough: a spring that is told only its first goes on with it. One that is told none stays what it was.
+  // A spring without a gear may give only its first slope, which then holds for all. A spring without any slope keeps its values.
   if (gear == nullptr && section.has("stiffness_1_Nm_rad"))
     spring.stiffness_2_Nm_rad = spring.stiffness_3_Nm_rad = spring.stiffness_1_Nm_rad;
   spring.torque_1_Nm = section.number_or("torque_1_Nm", spring.torque_1_Nm, kNotNegative);
@@ -41,7 +41,7 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
   spring.torque_2_Nm = section.number_or("torque_2_Nm", std::max(spring.torque_1_Nm, spring.torque_2_Nm),
                                          {spring.torque_1_Nm, kNotNegative.max});
   stiffness("stiffness_3_Nm_rad", spring.stiffness_3_Nm_rad);
-  // A slope that no torque has would be ignored.
+  // A slope outside every range of torque would be ignored, so it is refused.
   if (section.has("stiffness_2_Nm_rad") && spring.torque_2_Nm <= spring.torque_1_Nm)
     section.fail("stiffness_2_Nm_rad",
                  "it is allowed only with torque_1_Nm below torque_2_Nm, between which it is the slope");
@@ -138,7 +138,7 @@ void read_effects(TomlSection& section, bool gear_sets_ratio, JointPlantConfig& 
   gravity.refuse_unknown_keys();
   if (section.has("contact")) {
     TomlSection contact = section.section("contact");
-    // The link starts where the motor does, and not inside.
+    // The link starts at the motor's position, and not inside the obstacle.
     effects.contact.position_rad = contact.number("position_rad", {plant.initial_position_rad, 1e3});
     effects.contact.stiffness_Nm_rad = contact.number("stiffness_Nm_rad", kPositive);
     effects.contact.damping_Nms_rad = contact.number_or("damping_Nms_rad", 0.0, kNotNegative);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effects of a joint as tables of a TOML file: the same keys in a plant file and under [joint.simulated]. Offline.
+// The effects of a joint as tables of a TOML file. A plant file and [joint.simulated] use the same keys. Offline.
 //
 //   gear = "csf-17-50"     names the spring and the ratio; see data/gears.csv
 //   [link]             inertia_kgm2 (makes the joint flexible), coulomb_Nm, viscous_Nms_rad
@@ -18,8 +18,8 @@
 
 namespace strainwave {
 
-/// Reads what `section` has of these into `plant`. `plant.effects.gear_ratio` is the joint's; a gear of another ratio is refused
-/// unless `gear_sets_ratio`. Throws InputError naming file, line, key, value and what is allowed.
+/// Reads these tables from `section` into `plant`. A gear with another ratio than `plant.effects.gear_ratio` is refused, or
+/// replaces that ratio if `gear_sets_ratio`. Throws InputError naming file, line, key, value and what is allowed.
 void read_effects(TomlSection& section, bool gear_sets_ratio, JointPlantConfig& plant);
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The equations of sim/joint/flexible_physics.h, which alone includes this: torques and derivatives of one state under one constant
-// input. Real-time safe. Source: docs/flexible-joint.md.
+// The equations of sim/joint/flexible_physics.h: torques and derivatives of one state under one constant
+// input. Only flexible_physics.cc includes this file. Real-time safe. Source: docs/flexible-joint.md.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace strainwave::flexible {
 
-/// What an axis does during a step: slides one way or the other, or sticks.
+/// The mode of each axis during a step: it slides in one direction, or sticks.
 struct Modes {
   double motor = 0.0;  ///< +1, -1; 0: stuck
   double link = 0.0;
@@ -37,17 +37,17 @@ inline Vector vector_of(const FlexibleState& s) noexcept {
           s.link.velocity_rad_s, s.lost_motion_rad,      s.bristle_rad};
 }
 
-/// The torques at one instant; friction of stuck axes left out.
+/// The torques at one instant. Friction of the motor and Coulomb friction of the link are not included.
 struct Torques {
   double transmitted_Nm = 0.0;
   double on_motor_Nm = 0.0;  ///< without motor friction
   double on_link_Nm = 0.0;   ///< without Coulomb friction of the link
 };
 
-/// The equations for one constant input. Time runs from the start of it.
+/// The equations for one constant input. Time counts from the start of that input.
 class Equations {
  public:
-  /// Nothing relaxes faster than `fastest_per_s`.
+  /// `fastest_per_s` limits the relaxation rate of bristles and lost motion.
   Equations(const FlexibleJoint& joint, const JointInput& input, double start_current_Nm,
             double fastest_per_s) noexcept
       : joint_(joint), input_(input), start_current_Nm_(start_current_Nm), fastest_per_s_(fastest_per_s) {}
@@ -56,7 +56,7 @@ class Equations {
   bool has_link() const noexcept { return joint_.effects.transmission.has_value(); }
   double link_static_Nm() const noexcept { return joint_.effects.transmission->link_coulomb_Nm; }
 
-  /// Torque behind the current loop: exact for its first-order lag.
+  /// Torque behind the current loop. The solution for its first-order lag is exact.
   double current_Nm(double time_s) const noexcept {
     const double lag_s = joint_.effects.drive.current_loop_s;
     if (lag_s <= 0.0) return input_.torque_Nm;
@@ -87,7 +87,7 @@ class Equations {
     return result;
   }
 
-  /// Friction parameters with what the transmitted torque adds, against motion in `direction`; 0: the mean of both.
+  /// Friction parameters, with the part due to the transmitted torque, for motion in `direction`; 0: the mean of both directions.
   FrictionParameters friction(double transmitted_Nm, double direction) const noexcept {
     const FrictionEffects& effects = joint_.effects.friction;
     const FrictionParameters& curve = input_.friction;
@@ -96,12 +96,12 @@ class Equations {
     return {share * (curve.static_Nm + added_Nm), share * (curve.coulomb_Nm + added_Nm),
             share * curve.viscous_Nms_rad};
   }
-  /// By how much more than static friction the torques push a motor that is at rest.
+  /// The amount by which the torques on a motor at rest exceed its static friction.
   double breakaway_Nm(const Torques& t) const noexcept {
     return std::abs(t.on_motor_Nm) - friction(t.transmitted_Nm, sign(t.on_motor_Nm)).static_Nm;
   }
 
-  /// How fast bristles and lost motion follow at this state, the faster of them, 1/s.
+  /// The faster of the relaxation rates of bristles and lost motion in this state, 1/s.
   double relaxation_per_s(const Vector& x) const noexcept {
     double rate = 0.0;
     if (presliding()) {
@@ -159,7 +159,7 @@ class Equations {
   }
 
  private:
-  /// dz/dt of z that follows a motion and ends at `end_rad` in its direction: speed - |speed| z / end, bounded.
+  /// dz/dt of a deflection z that follows a motion up to `end_rad`: speed - |speed| z / end, with a limited rate.
   double relaxation(double speed_rad_s, double end_rad, double deflection_rad) const noexcept {
     const double rate = std::min(std::abs(speed_rad_s) / end_rad, fastest_per_s_);
     return rate * (std::copysign(end_rad, speed_rad_s) - deflection_rad);
@@ -188,13 +188,13 @@ class Equations {
   double bristle_stiffness_Nm_rad(double transmitted_Nm) const noexcept {
     return friction(transmitted_Nm, 0.0).static_Nm / joint_.effects.friction.presliding_rad;
   }
-  /// Stribeck curve without its viscous part, > 0 also at rest.
+  /// The Stribeck curve without its viscous part; > 0 also at rest.
   double sliding_Nm(const FrictionParameters& f, double velocity_rad_s) const noexcept {
     if (velocity_rad_s == 0.0) return f.static_Nm;
     const FrictionParameters dry{f.static_Nm, f.coulomb_Nm, 0.0};
     return stribeck_friction_Nm(dry, joint_.motor.stribeck, std::abs(velocity_rad_s));
   }
-  /// Size of the motor's friction in the direction of sliding, continued smoothly to the other side.
+  /// Size of the motor's friction while it slides in `direction`, continued smoothly to the other sign of velocity.
   double sliding_friction_Nm(double transmitted_Nm, const Vector& x, double direction) const noexcept {
     const FrictionParameters f = friction(transmitted_Nm, direction);
     return sliding_Nm(f, x.motor_velocity) + f.viscous_Nms_rad * direction * x.motor_velocity;

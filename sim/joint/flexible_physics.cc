@@ -18,11 +18,11 @@ using flexible::vector_of;
 namespace {
 
 constexpr int kMaxEventsPerSubstep = 32;
-// Bristles and lost motion relax over a distance; at speed that may be far shorter than a sub-step moves. So many steps
-// follow it, and what is faster still relaxes as fast as these steps can: it stands at its end either way.
+// Bristles and lost motion relax over a distance, which may be far shorter than the motion in a sub-step. At most
+// this many steps follow it. A faster relaxation is slowed to the rate that they resolve; its end value is the same.
 constexpr int kMaxRelaxationSteps = 64;
 
-/// One constant input, sub-step by sub-step.
+/// Integrates one constant input, sub-step by sub-step.
 class Stepper {
  public:
   Stepper(const Equations& equations, const Vector& start) noexcept : equations_(equations), x_(start) {}
@@ -40,7 +40,7 @@ class Stepper {
   }
 
  private:
-  /// Which way each axis goes from here.
+  /// Returns the direction in which each axis moves from here.
   Modes modes_at(const Vector& x, bool hold) const noexcept {
     const Torques t = equations_.torques(time_s_, x);
     Modes modes;
@@ -49,7 +49,7 @@ class Stepper {
                                                               : sign(t.on_motor_Nm);
     if (!equations_.has_link()) return modes;
     const double link_static_Nm = equations_.link_static_Nm();
-    // Without friction nothing sticks, not even where nothing pulls.
+    // Without friction the link never sticks, even if no torque acts on it.
     modes.link = link_static_Nm <= 0.0                              ? 1.0
                  : x.link_velocity != 0.0                           ? sign(x.link_velocity)
                  : hold || std::abs(t.on_link_Nm) <= link_static_Nm ? 0.0
@@ -57,7 +57,7 @@ class Stepper {
     return modes;
   }
 
-  /// Above 0 when, at the end of a step, an axis has turned round or a stuck one has broken away.
+  /// Above 0 if an axis has reversed, or a stuck one has broken away, at the end of a step.
   double event(const Vector& from, const Vector& x, const Modes& modes, double h) const noexcept {
     const Torques t = equations_.torques(time_s_ + h, x);
     double value = -1.0;
@@ -72,7 +72,7 @@ class Stepper {
     return from.link_velocity != 0.0 ? std::max(value, -modes.link * x.link_velocity) : value;
   }
 
-  /// Goes as far as `h` or the first event; returns how far.
+  /// Advances by `h`, or to the first event; returns the duration.
   double whole_step(Modes modes, double h, bool ignore_events) noexcept {
     const Vector from = x_;
     Vector to = equations_.runge_kutta(time_s_, from, modes, h);
@@ -85,7 +85,7 @@ class Stepper {
       step_s = shorten(from, modes, h);
       to = equations_.runge_kutta(time_s_, from, modes, step_s);
     }
-    // An axis that has turned round, or sticks, is at rest.
+    // An axis that has reversed, or sticks, is at rest.
     if (!equations_.presliding() && (modes.motor == 0.0 || modes.motor * to.motor_velocity <= 0.0))
       to.motor_velocity = 0.0;
     if (equations_.has_link() && equations_.link_static_Nm() > 0.0 &&
@@ -95,7 +95,7 @@ class Stepper {
     return step_s;
   }
 
-  /// An axis that leaves rest and ends on the other side did not leave: it sticks over this step.
+  /// An axis that leaves rest and ends with the opposite velocity did not break away: it sticks over this step.
   bool fell_back(const Vector& from, const Vector& to, Modes& modes) const noexcept {
     bool changed = false;
     if (!equations_.presliding() && from.motor_velocity == 0.0 && modes.motor * to.motor_velocity < 0.0) {
@@ -110,8 +110,8 @@ class Stepper {
     return changed;
   }
 
-  /// The shortest step, to rounding, at whose end the event has happened: false position on a bracket that halves at least every
-  /// third time.
+  /// The shortest step, to rounding, at whose end the event has happened. False position finds it, with a
+  /// bracket that is halved at least every third time.
   double shorten(const Vector& from, const Modes& modes, double h) const noexcept {
     const auto value = [&](double s) {
       return event(from, equations_.runge_kutta(time_s_, from, modes, s), modes, s);
@@ -173,7 +173,7 @@ double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
 
 namespace {
 
-// What the spring stores at a wind-up: over each slope the difference of torque^2 / 2K.
+// Energy that the spring stores at a wind-up: over each slope, the difference of torque^2 / 2K.
 double stored_energy_J(const TorsionSpring& spring, double wind_up_rad) noexcept {
   const double torque_Nm = std::abs(spring.torque_Nm(wind_up_rad));
   const double first_Nm = std::min(torque_Nm, spring.torque_1_Nm);

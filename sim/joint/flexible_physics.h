@@ -6,10 +6,10 @@
 //   Jl wl' = ts - load - gravity(thl) - contact(thl, wl) - Fl(wl)
 //   ts     = spring(x) + K1 z + D dx/dt                    x = thm + e(thm) - thl, z: lost motion
 //
-// Between events: classical Runge-Kutta of order 4. Motor and link each stick and break away as events, as in
-// sim/joint/joint_physics.h: the motor is stuck at wm = 0 while |Tm - (1 + e') ts| <= Fs, the link at wl = 0 while what acts on it
-// is within its own. The instant is found by shortening the step until the event is its end. With presliding the motor's friction
-// is a state instead and there is no such event.
+// Between events: the classical Runge-Kutta method of order 4. Motor and link stick and break away as events,
+// as in sim/joint/joint_physics.h. The motor sticks at wm = 0 while |Tm - (1 + e') ts| <= Fs. The link sticks
+// at wl = 0 while the torque on it is within its own static friction. The simulation shortens the step until
+// it ends at the event. With presliding the motor's friction is a state, and the motor has no such events.
 #pragma once
 
 #include "sim/joint/joint_effects.h"
@@ -19,9 +19,9 @@ namespace strainwave {
 
 struct FlexibleState {
   JointState motor;
-  JointState link;               ///< follows the motor where there is no transmission
+  JointState link;               ///< follows the motor if there is no transmission
   double lost_motion_rad = 0.0;  ///< z
-  double bristle_rad = 0.0;      ///< presliding: mean deflection
+  double bristle_rad = 0.0;      ///< mean deflection of the bristles, with presliding
   double current_Nm = 0.0;       ///< torque behind the current loop, before ripple and envelope
 };
 
@@ -42,7 +42,7 @@ double transmitted_torque_Nm(const FlexibleJoint& joint, const FlexibleState& st
 double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
                        const JointInput& input) noexcept;
 
-/// Kinetic energy and what springs, gravity and contact store, in J.
+/// Kinetic energy and the energy that springs, gravity and contact store, in J.
 double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& state) noexcept;
 
 }  // namespace strainwave

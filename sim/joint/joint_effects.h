@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes a strain-wave joint more than one rigid inertia, one small type per effect; each is off as it stands here. Joint side,
-// SI, plain data. Sources: data/gears.csv, docs/flexible-joint.md.
+// The effects that distinguish a strain-wave joint from one rigid inertia, one small type per effect. Each is
+// off by default. Joint side, SI, plain data. Sources: data/gears.csv, docs/flexible-joint.md.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace strainwave {
 
-/// The gear does not turn evenly: with the motor's angle N theta the output leads by
+/// The gear does not turn evenly. At the motor's angle N theta the output leads by
 ///   e(theta) = sum over n = 1, 2 of a_n sin(n N theta + phi_n)
 struct KinematicError {
   std::array<double, 2> amplitude_rad{};  ///< a_1 and a_2 at the joint: once and twice per motor turn
@@ -31,7 +31,7 @@ struct KinematicError {
     return amplitude_rad[0] * std::cos(turn_rad + phase_rad[0]) +
            2.0 * amplitude_rad[1] * std::cos(2.0 * turn_rad + phase_rad[1]);
   }
-  /// The least slope of a turn, <= 0, to a millionth of itself. With 1 + N slope <= 0 somewhere the gear would turn back.
+  /// The least slope of a turn, <= 0, with a relative error of 1e-6. The gear would turn back if 1 + N slope <= 0 anywhere.
   double least_slope() const noexcept {
     constexpr int kAngles = 4096;
     double least = 0.0;
@@ -40,44 +40,44 @@ struct KinematicError {
   }
 };
 
-/// The spring's loss that does not depend on speed: a sliding element beside it, which gives way as it is bent,
+/// The spring's loss that does not depend on speed. A sliding element parallel to the spring yields as the gear winds up:
 ///   dz/dt = w - |w| z / (h/2),   torque = K1 z
-/// so that the wind-up at zero torque differs by h between the two ways of loading.
+/// The wind-up at zero torque then differs by h between the two directions of loading.
 struct LostMotion {
   double width_rad = 0.0;  ///< h >= 0
 };
 
-/// Gear and link. Without one the joint is rigid and its whole inertia is at the motor.
+/// Gear and link. Without a transmission the joint is rigid, and its whole inertia is at the motor.
 struct Transmission {
   double link_inertia_kgm2 = 0.0;  ///< Jl > 0
   TorsionSpring spring;
-  double damping_Nms_rad = 0.0;  ///< D >= 0, of the wind-up's speed
+  double damping_Nms_rad = 0.0;  ///< D >= 0, on the rate of the wind-up
   LostMotion lost_motion;
   KinematicError kinematic_error;
   double link_coulomb_Nm = 0.0;       ///< friction of the output bearing, with stiction of the same size
   double link_viscous_Nms_rad = 0.0;  ///< >= 0
 };
 
-/// Beyond the Stribeck curve.
+/// Friction effects beyond the Stribeck curve.
 struct FrictionEffects {
-  double transmitted_share = 0.0;  ///< of the transmitted torque, added to static and Coulomb friction; >= 0
-  /// Elastic creep before sliding (LuGre): at this angle the bristles carry static friction; 0: true stiction.
+  double transmitted_share = 0.0;  ///< share of transmitted torque added to static and Coulomb friction; >= 0
+  /// Elastic creep before sliding (LuGre): the angle at which the bristles carry static friction; 0: true stiction.
   double presliding_rad = 0.0;
-  /// By this share all of it is more in the positive direction than the curve says, and less in the other; in (-1, 1).
+  /// Share in (-1, 1) by which all friction exceeds the curve in the positive direction, and falls short of it in the other.
   double direction_share = 0.0;
 };
 
-/// Between the command and the torque.
+/// Effects between the command and the torque.
 struct DriveEffects {
-  double current_loop_s = 0.0;          ///< time constant; 0: at once
-  double ripple_share = 0.0;            ///< of the torque, amplitude, in [0, 1)
+  double current_loop_s = 0.0;          ///< time constant; 0: no lag
+  double ripple_share = 0.0;            ///< amplitude as a share of the torque, in [0, 1)
   double ripple_per_motor_turn = 12.0;  ///< cycles
 };
 
-/// What the link runs into: a spring and a damper that only push, above a position. A stop is a stiff one.
+/// An obstacle for the link: a spring and a damper above a position, which only push. A stop is a stiff obstacle.
 struct Contact {
   double position_rad = 0.0;
-  double stiffness_Nm_rad = 0.0;  ///< 0: nothing there
+  double stiffness_Nm_rad = 0.0;  ///< 0: no obstacle
   double damping_Nms_rad = 0.0;   ///< >= 0
 
   double torque_Nm(double link_position_rad, double link_velocity_rad_s) const noexcept {
@@ -89,7 +89,7 @@ struct Contact {
 };
 
 struct JointEffects {
-  double gear_ratio = 50.0;  ///< N > 0: motor turns per joint turn, for what repeats with the motor's turn
+  double gear_ratio = 50.0;  ///< N > 0: motor turns per joint turn, for effects that repeat per motor turn
   std::optional<Transmission> transmission;
   FrictionEffects friction;
   DriveEffects drive;

@@ -77,7 +77,7 @@ void advance(JointState& state, const JointParameters& joint, const JointInput& 
   const double rest_torque_Nm = input.motor.limit_Nm(input.torque_Nm, 0.0) - input.load_torque_Nm;
   const bool sticks_at_rest = std::abs(rest_torque_Nm) <= input.friction.static_Nm;
   const double substep_s = duration_s / substeps;
-  double h = substep_s;  // what is left of the current sub-step
+  double h = substep_s;  // remaining part of the current sub-step
   for (int i = 0; i < substeps;) {
     if (state.velocity_rad_s == 0.0) {
       state.stuck = sticks_at_rest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint as a mechanical system: one inertia, friction with true stiction, a motor with limits. This is
-// the plant of every closed-loop test and it is not the controller's model: friction is the Stribeck curve
-// itself. Joint side, SI. Real-time safe: advance() allocates nothing and throws nothing.
+// The joint as a mechanical system: one inertia, friction with true stiction, a motor with limits. It is the
+// plant of every closed-loop test of a rigid joint. It is not the controller's model: its friction is the
+// Stribeck curve itself. Joint side, SI. Real-time safe: advance() allocates nothing and throws nothing.
 //
 //   w != 0:  J dw/dt = Tm(w) - load - F(w, T)
 //            d(theta)/dt = w
@@ -9,10 +9,10 @@
 //            else the joint breaks away in the direction of Tm(0) - load
 //   F: control/friction/friction.h; Zhao (2006), (2-1)..(2-10)
 //
-// Between events: classical Runge-Kutta of order 4 with friction continued smoothly through w = 0. For
-// constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at most
-// one change of sign. The change is the root of the step's cubic dense output, found to rounding; there the
-// joint is at rest, and only then it stays stuck or breaks away for the remaining time. The sign is never smoothed.
+// Between events: the classical Runge-Kutta method of order 4, with friction continued smoothly through zero
+// velocity. Under constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at
+// most one change of sign. The change is the root of the step's cubic dense output, found to rounding. There the
+// joint is at rest, and sticks or breaks away for the remaining time. The sign is never smoothed.
 #pragma once
 
 #include "control/friction/friction.h"
@@ -20,21 +20,21 @@
 
 namespace strainwave {
 
-/// What does not change during a run.
+/// Everything that does not change during a run.
 struct JointParameters {
   double inertia_kgm2 = 0.0;           ///< J > 0, motor and load seen at the joint
-  StribeckShape stribeck;              ///< shape over velocity
-  ExponentialTemperatureLaw friction;  ///< size over temperature
+  StribeckShape stribeck;              ///< shape of friction over velocity
+  ExponentialTemperatureLaw friction;  ///< size of friction over temperature
 };
 
-/// Where the joint is. stuck implies velocity_rad_s == 0.
+/// State of the joint. `stuck` implies velocity_rad_s == 0.
 struct JointState {
   double position_rad = 0.0;
   double velocity_rad_s = 0.0;
   bool stuck = true;
 };
 
-/// What acts on the joint during one period; all constant over it.
+/// Inputs of the joint during one period, all constant.
 struct JointInput {
   double torque_Nm = 0.0;       ///< commanded motor torque
   double load_torque_Nm = 0.0;  ///< external torque; positive opposes positive motor torque

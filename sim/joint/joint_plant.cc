@@ -41,10 +41,10 @@ void check(const Transmission& gear) {
     require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
 }
 
-// Friction grows with the cold: as cold as this a joint may be run.
+// The lowest temperature that the checks allow for, since friction grows in the cold.
 constexpr double kColdest_C = -40.0;
 
-// A motor that moves is not held back by more than one that stands: else it would stop and go without end.
+// Coulomb friction must not exceed static friction: otherwise the motor would stop and break away endlessly.
 void check_friction(const ExponentialTemperatureLaw& law) {
   require(
       law.asymptote.static_Nm >= law.asymptote.coulomb_Nm, "friction.asymptote_static_Nm",
@@ -56,7 +56,7 @@ void check_friction(const ExponentialTemperatureLaw& law) {
               number_text(cold.static_Nm) + " N.m, less than Coulomb's of " + number_text(cold.coulomb_Nm));
 }
 
-// Motor and bristles swing at sqrt(Fs / (J presliding)), damped by half of what is critical: as a sub-step bears it.
+// Motor and bristles oscillate at sqrt(Fs / (J presliding)) with half of critical damping. A sub-step bears at most 1 rad of it.
 void check_presliding(const JointPlantConfig& c) {
   const double presliding_rad = c.effects.friction.presliding_rad;
   if (presliding_rad <= 0.0) return;
@@ -70,7 +70,7 @@ void check_presliding(const JointPlantConfig& c) {
               " sub-steps is allowed (the friction of -40 degC on this inertia)");
 }
 
-// What the integration of a sub-step bears: its fastest swing turns by at most 1 rad, its fastest decay is at most e^-2.
+// Limits for the integration: in a sub-step the fastest oscillation turns by at most 1 rad, and the fastest decay reaches at most e^-2.
 void check_substeps(const JointPlantConfig& c) {
   const JointEffects& e = c.effects;
   constexpr double kLargestDecay = 2.0;
@@ -156,7 +156,7 @@ JointPlantConfig checked(const JointPlantConfig& c) {
   return c;
 }
 
-/// The link, where spring, gravity and kinematic error balance with the motor at rest.
+/// The state at rest: spring, gravity and kinematic error balance at the link.
 FlexibleState resting(const JointPlantConfig& c) {
   FlexibleState state;
   state.motor = state.link = {c.initial_position_rad, 0.0, true};
@@ -221,7 +221,7 @@ double JointPlant::advance_with(double torque_Nm, double load_torque_Nm, double 
     advance(state_.motor, config_.joint, input, duration_s, substeps);
     applied_Nm_ = config_.motor.limit_Nm(input.torque_Nm, state_.motor.velocity_rad_s);
   }
-  // Friction's work is what the torques put in and the motion did not keep; rounding may make it slightly negative.
+  // The work of friction is the torques' work less the gain in energy. Rounding may make it slightly negative.
   const double motor_rad = state_.motor.position_rad - before.motor.position_rad;
   const double loaded_rad = effects_ ? state_.link.position_rad - before.link.position_rad : motor_rad;
   const double work_J = applied_Nm_ * motor_rad - load_torque_Nm * loaded_rad;

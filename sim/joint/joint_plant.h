@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One joint as a controller meets it: physics, motor, encoder, heat and the delay of the computer, a period
-// at a time. Real-time safe except for the constructor.
+// One joint as the controller sees it, one period at a time: physics, motor, encoder, heat and the delay of
+// the computer. Real-time safe except for the constructor.
 #pragma once
 
 #include "control/joint/encoder_side.h"
@@ -12,17 +12,17 @@
 namespace strainwave {
 
 struct JointPlantConfig {
-  JointParameters joint;                       ///< with a transmission its inertia is the motor's alone
+  JointParameters joint;                       ///< with a transmission, the motor's inertia alone
   JointEffects effects;                        ///< default: one rigid inertia
   MotorLimits motor;                           ///< default: no limit
-  Encoder encoder;                             ///< of the motor's side; default: ideal
-  Encoder link_encoder;                        ///< the second one, of the link; 0 counts: there is none
+  Encoder encoder;                             ///< encoder on the motor's side; default: ideal
+  Encoder link_encoder;                        ///< second encoder, on the link; 0 counts: none
   EncoderSide feedback = EncoderSide::kMotor;  ///< whose position the drive reports as the joint's
   ThermalParameters thermal;                   ///< default: no heating, no lag
-  double winding_loss_W_Nm2 = 0.0;             ///< R / Kt^2: heat of holding a torque
+  double winding_loss_W_Nm2 = 0.0;             ///< R / Kt^2: heat in the winding per square of the torque
   double period_s = 1e-3;                      ///< > 0
   int substeps = 10;                           ///< integration steps per period, 1..10000
-  DelayConfig delay;                           ///< from a command to its effect
+  DelayConfig delay;                           ///< delay from a command to its effect
   double initial_position_rad = 0.0;
 };
 
@@ -31,12 +31,12 @@ class JointPlant {
   /// Throws InputError naming the key, the value and what is allowed.
   explicit JointPlant(const JointPlantConfig& config);
 
-  /// Start of a period: the temperature of the surroundings, finite. The sensors may be read after it.
+  /// Begins a period at this finite temperature of the surroundings. The sensors may be read afterwards.
   void set_ambient_temperature(double ambient_temperature_C) noexcept {
     thermal_.set_ambient(ambient_temperature_C);
   }
 
-  /// The rest of the period: `torque_Nm` enters the delay line, the torque that leaves it acts.
+  /// Completes the period: `torque_Nm` enters the delay line, and the torque that leaves it acts.
   /// `load_torque_Nm` opposes positive motor torque. Both must be finite.
   void step(double torque_Nm, double load_torque_Nm = 0.0) noexcept;
 
@@ -44,27 +44,27 @@ class JointPlant {
   void clear_pending_torque() noexcept { delay_.clear(); }
 
   const JointPlantConfig& config() const noexcept { return config_; }
-  /// The motor's side; the whole of a rigid joint.
+  /// State of the motor's side, which is the whole of a rigid joint.
   const JointState& state() const noexcept { return state_.motor; }
-  /// The link; of a rigid joint the same.
+  /// State of the link. A rigid joint has the same state on both sides.
   const JointState& link_state() const noexcept { return effects_ ? state_.link : state_.motor; }
-  /// Where `feedback` sits.
+  /// State of the side that `feedback` names.
   const JointState& feedback_state() const noexcept {
     return config_.feedback == EncoderSide::kLink ? link_state() : state();
   }
-  /// What the encoder that the drive reports reads now.
+  /// The present reading of the encoder that the drive reports.
   double measured_position_rad() const noexcept {
     return config_.feedback == EncoderSide::kLink ? measured_link_position_rad()
                                                   : config_.encoder.measure_rad(state_.motor.position_rad);
   }
   bool has_link_encoder() const noexcept { return config_.link_encoder.counts_per_joint_revolution > 0.0; }
-  /// What the second encoder reads now; the link's true position when there is none.
+  /// The present reading of the second encoder; without one, the link's true position.
   double measured_link_position_rad() const noexcept {
     return config_.link_encoder.measure_rad(link_state().position_rad);
   }
-  /// Motor torque over the last period: its command after delay and limits, at the velocity of the period's end.
+  /// Motor torque over the last period: the command after delay and limits, at the velocity of the period's end.
   double applied_torque_Nm() const noexcept { return applied_Nm_; }
-  /// Temperature of the joint's lubricant, and what the sensor shows.
+  /// Temperature of the joint's lubricant, and the reading of its sensor.
   double joint_temperature_C() const noexcept { return thermal_.joint_C(); }
   double sensor_temperature_C() const noexcept { return thermal_.sensor_C(); }
   double time_s() const noexcept { return static_cast<double>(periods_) * config_.period_s; }
@@ -76,7 +76,7 @@ class JointPlant {
 
   JointPlantConfig config_;
   FlexibleJoint flexible_;
-  bool effects_;  ///< else the rigid joint's physics, of which only the motor's state is used
+  bool effects_;  ///< false: rigid physics, which use only the motor's state
   FlexibleState state_;
   ThermalModel thermal_;
   DelayLine delay_;

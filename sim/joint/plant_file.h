@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plant as a TOML file: what differs from one of the built-in joints. Offline.
+// The plant as a TOML file, which gives the differences from a built-in joint. Offline.
 //
-//   base = "flexible"     ideal, limited, realistic or flexible: where everything not given comes from
+//   base = "flexible"     ideal, limited, realistic or flexible: the source of all values that are not given
 //   [joint]       inertia_kgm2 (the motor's side where there is a link), stribeck_velocity_rad_s, stribeck_exponent
 //   [friction]    reference_C, decay_C,
 //                 asymptote_static_Nm, asymptote_coulomb_Nm, asymptote_viscous_Nms_rad,
@@ -10,7 +10,7 @@
 //   [encoder]     counts_per_joint_revolution (0: ideal)
 //   [thermal]     resistance_C_W, time_constant_s, sensor_time_constant_s
 //   [simulation]  period_s, substeps, initial_position_rad
-// and the effects of sim/joint/effects_file.h.
+// The tables of sim/joint/effects_file.h are allowed as well.
 #pragma once
 
 #include <filesystem>

@@ -58,7 +58,7 @@ inline JointPlantConfig torque_limited_plant() {
   return config;
 }
 
-/// The datasheet's: encoder only, one period of computation, peak torque, supply and back-EMF.
+/// The joint of the datasheet: only an encoder, one period of computation, peak torque, supply and back-EMF.
 inline JointPlantConfig realistic_plant() {
   JointPlantConfig config = ideal_plant();
   config.motor = MotorLimits::from_motor(reference_motor());
@@ -67,8 +67,8 @@ inline JointPlantConfig realistic_plant() {
   return config;
 }
 
-/// The realistic joint behind a gear of size 17 and ratio 50: the actuator's inertia on the motor's side, a link of the same
-/// inertia, 2 % of structural damping.
+/// The realistic joint behind a gear of size 17 and ratio 50. The motor's side has the actuator's inertia,
+/// and the link has the same. The structural damping is 2 %.
 inline JointPlantConfig flexible_plant() {
   JointPlantConfig config = realistic_plant();
   Transmission transmission;

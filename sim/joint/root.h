@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Root of a rising function by the Illinois variant of false position: a bracket that always holds the root,
-// and superlinear convergence. Offline.
+// Root of a rising function by the Illinois variant of false position. The bracket always holds the root, and
+// convergence is superlinear. Offline.
 #pragma once
 
 #include <cmath>

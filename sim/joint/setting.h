@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The settings of the reference joint: how much of a real joint's trouble it has. Offline.
+// The settings of the reference joint, from ideal to realistic. Offline.
 #pragma once
 
 #include <array>

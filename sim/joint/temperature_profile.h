@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ambient temperature over time: a TimeProfile in degC that stays above absolute zero. at() is real-time
-// safe; the factories are not and throw InputError.
+// safe. The factories are not, and throw InputError.
 #pragma once
 
 #include "sim/joint/time_profile.h"

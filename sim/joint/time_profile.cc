@@ -131,7 +131,7 @@ TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& qua
 }
 
 double TimeProfile::at(double time_s) const noexcept {
-  // A period that does not divide the interval exactly must not step one sample late.
+  // Without this tolerance, a period that does not divide the interval exactly could step one sample late.
   constexpr double kRounding = 1e-9;
   switch (kind_) {
     case Kind::kSteps:

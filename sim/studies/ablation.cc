@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kSteps_rad = {1e-3, 1e-2, 0.1, 1.0};
 constexpr double kLargestLink_kgm2 = 0.27;
-constexpr double kLoad_Nm = 5.0;  // horizontal, about what 1.3 kg at 0.4 m weigh
+constexpr double kLoad_Nm = 5.0;  // with the link horizontal, about that of 1.3 kg at 0.4 m
 
 struct Cell {
   FlexibleCell cell;
@@ -80,7 +80,7 @@ double mean_rms_rad(const FrictionWay& way, int times) {
   return sum_rad / static_cast<double>(rows.size());
 }
 
-/// The figures that count, in the order of the columns.
+/// The figures that are compared, in the order of the columns.
 std::vector<double> figures(const AblationRow& row) {
   std::vector<double> all(row.step_sums.begin(), row.step_sums.end());
   for (const double figure : {row.overshoot_rad, row.rest_torque_Nm, row.unsettled, row.wrong_off,

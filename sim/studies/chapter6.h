@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chapter 6 of Zhao (2006), whole: every contender in every scenario, range and setting, and the physical
-// limit of each. Offline; uses all cores; the result does not depend on how many.
+// All of chapter 6 of Zhao (2006): every contender in every scenario, range and setting, and the physical
+// limits. Offline; uses all cores; the result does not depend on their number.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace strainwave {
 
-/// Where a run stands in the tables.
+/// The place of a run in the tables.
 struct Chapter6Key {
   Setting setting = Setting::kIdeal;
   Scenario scenario = Scenario::kStaircase;
@@ -27,7 +27,7 @@ struct Chapter6Run {
   ClosedLoopResult result;
 };
 
-/// The physical limit of one column. Without a torque limit it is one sample: PI2 counts each step once.
+/// The physical limit of one column. Without a torque limit it would be one sample: PI2 would count each step once.
 struct Chapter6Limit {
   Chapter6Key key;
   TimeOptimalResult result;
@@ -35,12 +35,12 @@ struct Chapter6Limit {
 
 struct Chapter6 {
   std::vector<std::string> contenders;
-  std::vector<Chapter6Run> runs;      ///< key-major, contenders in order
+  std::vector<Chapter6Run> runs;      ///< ordered by key, then by contender
   std::vector<Chapter6Limit> limits;  ///< none for Setting::kIdeal
   double computation_s = 0.0;         ///< wall time of all runs and limits
   long periods = 0;                   ///< simulated plant periods
 
-  /// Throws std::out_of_range for a run that is not there.
+  /// Throws std::out_of_range if there is no such run.
   const ClosedLoopResult& at(const Chapter6Key& key, const std::string& contender) const;
   const TimeOptimalResult* limit(const Chapter6Key& key) const;
 };

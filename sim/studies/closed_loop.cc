@@ -15,8 +15,7 @@ namespace strainwave {
 namespace {
 
 constexpr double kLargestPosition_rad = 1e6;
-constexpr double kTemperatureJump_C =
-    0.5;  // between two samples; anything slower belongs to the same stretch
+constexpr double kTemperatureJump_C = 0.5;  // between two samples; slower changes start no new stretch
 constexpr double kSteadyFraction = 0.2;
 constexpr double kLongestRun_s = 1e6;
 
@@ -44,7 +43,7 @@ Iterator stretch_end(Iterator begin, Iterator end) {
   });
 }
 
-/// Adds one stretch; returns the number of torque sign changes in its steady part and its length in `steady_samples`.
+/// Adds one stretch and the number of its steady samples. Returns the number of torque sign changes in its steady part.
 long add_stretch(Iterator begin, Iterator end, double origin_rad, LoopStatistics& result,
                  long& steady_samples) {
   const double direction = sign(begin->setpoint_position_rad - origin_rad);
@@ -103,7 +102,7 @@ LoopStatistics evaluate(const std::vector<TracePoint>& trace, double period_s) {
     const auto last = stretch_end(begin, trace.end());
     const auto end = last == trace.end() ? last : last + 1;
     changes += add_stretch(begin, end, origin_rad, result, steady_samples);
-    // A jump of temperature is no step: overshoot is still seen from where the setpoint was before.
+    // A jump of temperature is no step: overshoot still refers to the position at the last change of setpoint.
     if (end != trace.end() && !same_setpoint(*begin, *end)) origin_rad = end->joint_position_rad;
     begin = end;
   }

@@ -17,7 +17,7 @@
 
 namespace strainwave {
 
-/// What a controller sees at one sample, joint side.
+/// The information that a controller gets at one sample, joint side.
 struct LoopSample {
   double time_s = 0.0;
   double setpoint_position_rad = 0.0;
@@ -27,7 +27,7 @@ struct LoopSample {
   double torque_applied_Nm = 0.0;              ///< over the period that ends now
 };
 
-/// Anything that closes the loop.
+/// Interface of every controller that closes the loop.
 class LoopController {
  public:
   virtual ~LoopController() = default;
@@ -38,7 +38,7 @@ class LoopController {
   virtual double torque_Nm(const LoopSample& sample) noexcept = 0;
   /// Forgets everything; called before each run.
   virtual void reset() noexcept = 0;
-  /// Whether it found the joint oscillating since reset(), and gives no torque any more.
+  /// Returns whether the controller has found the joint oscillating since reset(), and gives no torque any more.
   virtual bool switched_off() const noexcept { return false; }
 };
 
@@ -50,25 +50,25 @@ struct ClosedLoopConfig {
   double duration_s = 0.0;     ///< > 0
 };
 
-/// One sample of a run: the truth at its start (the motor's side, and the link), the torque wanted there and the one applied over it.
+/// One sample of a run: true state of motor side and link at its start, the torque wanted there, and the torque applied over it.
 struct TracePoint {
   double time_s, setpoint_position_rad, joint_position_rad, joint_velocity_rad_s, wanted_torque_Nm,
       applied_torque_Nm, joint_temperature_C;
-  double link_position_rad;  ///< of a rigid joint the joint's
+  double link_position_rad;  ///< for a rigid joint, the joint's position
 };
 
-/// What a trace amounts to. A stretch is a run of samples with one setpoint and no jump of temperature; its
-/// last fifth counts as steady.
+/// Performance figures of a trace. A stretch is a run of samples with one setpoint and without a jump of
+/// temperature. Its last fifth counts as steady.
 struct LoopStatistics {
   double pi1_rad2 = 0.0;
   double pi2 = 0.0;
   double final_error_rad = 0.0;            ///< at the last sample, with its sign
   double steady_error_rad = 0.0;           ///< largest |e| while steady
-  double overshoot_rad = 0.0;              ///< farthest past a setpoint, as seen from where its stretch began
-  double rise_time_s = -1.0;               ///< 90 % of the first step done; -1: never
-  double settling_time_s = -1.0;           ///< |e| <= 2 % of the first step from here to its end; -1: never
+  double overshoot_rad = 0.0;              ///< farthest past a setpoint, in the direction of its step
+  double rise_time_s = -1.0;               ///< 90 % of the first step reached; -1: never
+  double settling_time_s = -1.0;           ///< |e| <= 2 % of the first step until its end; -1: never
   double peak_torque_Nm = 0.0;             ///< applied
-  double steady_sign_changes_per_s = 0.0;  ///< of the torque wanted, while steady
+  double steady_sign_changes_per_s = 0.0;  ///< of the wanted torque, while steady
 };
 
 struct ClosedLoopResult {
@@ -78,15 +78,15 @@ struct ClosedLoopResult {
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 
-/// Runs `controller` from rest at the plant's initial position and shows every sample to `visit`. False when
-/// the run diverged and ended early. Throws InputError for a bad configuration.
+/// Runs `controller` from rest at the plant's initial position, and calls `visit` with every sample. Returns
+/// false if the run diverged and ended early. Throws InputError for a bad configuration.
 bool simulate(const ClosedLoopConfig& config, LoopController& controller,
               const std::function<void(const TracePoint&)>& visit);
 
-/// The same, with the whole trace kept.
+/// Runs the loop in the same way and keeps the whole trace.
 ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller);
 
-/// The trace as the link has it: its position in the place of the motor's.
+/// Returns the trace with the link's position in place of the motor's.
 std::vector<TracePoint> on_the_link(std::vector<TracePoint> trace);
 
 /// Statistics of a trace with one point per `period_s`.

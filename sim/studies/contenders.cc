@@ -20,8 +20,8 @@ void require_period(const GainTable& table, const JointPlantConfig& plant) {
                      "must be the plant's period, " + number_text(plant.period_s));
 }
 
-// A plant without a torque limit (the source's ideal setting) may be given what it takes; a plan needs some number, and
-// 300 times the real actuator's peak is none in effect.
+// A plant without a torque limit (the source's ideal setting) takes any torque, but a plan needs a number. In
+// effect, 300 times the real actuator's peak is no limit.
 constexpr double kNoTorqueLimit_Nm = 1e4;
 
 double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {

@@ -36,7 +36,7 @@ void write_data(std::string& script, const std::string& name, const Points& poin
 
 std::string range(const char* axis, const std::vector<double>& limits) {
   if (limits.size() != 2) return std::string("set autoscale ") + axis + "\n";
-  std::array<char, 64> text;  // std::to_string() would make 0 of 1e-9
+  std::array<char, 64> text;  // std::to_string() would turn 1e-9 into 0
   std::snprintf(text.data(), text.size(), "range [%.9g:%.9g]\n", limits[0], limits[1]);
   return std::string("set ") + axis + text.data();
 }

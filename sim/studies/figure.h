@@ -13,9 +13,9 @@ using Points = std::vector<std::pair<double, double>>;
 
 enum class Mark { kLine, kDashed, kStaircase, kPoints };
 
-/// One curve. Colours follow the order of first use of each name in a figure unless `colour` is given.
+/// One curve.
 struct Series {
-  std::string name;  ///< in the key; empty: not listed
+  std::string name;  ///< name in the key; empty: not listed
   Points points;
   Mark mark = Mark::kLine;
   int colour = 0;  ///< index into the palette
@@ -26,7 +26,7 @@ struct Panel {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::string right_label;  ///< of the right axis, when a series uses it
+  std::string right_label;  ///< label of the right axis, if a series uses it
   std::vector<Series> series;
   bool log_y = false;
   std::vector<double> x_range;  ///< empty, or two numbers
@@ -41,11 +41,11 @@ struct Figure {
   std::vector<Panel> panels;
 };
 
-/// Draws each figure into `directory`/<id>.svg, several gnuplot processes at once. Throws InputError when
-/// gnuplot is missing or fails, with what it said.
+/// Draws each figure into `directory`/<id>.svg, with several gnuplot processes at once. Throws InputError
+/// with gnuplot's message if gnuplot is missing or fails.
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& directory);
 
-/// At most about `limit` points that keep every extreme: the smallest and largest of each group, in order.
+/// Returns at most about `limit` points, which include the smallest and the largest of each group, in order.
 Points thinned(const Points& points, std::size_t limit = 400);
 
 }  // namespace strainwave

@@ -31,7 +31,7 @@ FlexibleCell cell_of(double link_inertia_kgm2, const TorsionSpring& spring, doub
   return cell;
 }
 
-/// An effect with a size of its own; `share` in [0, 1] of what the catalogue and practice name.
+/// An effect. `share` in [0, 1] scales the size that the catalogue and practice name.
 struct Effect {
   std::string name;
   std::function<void(JointPlantConfig&, double share)> add;
@@ -72,7 +72,7 @@ const std::vector<Effect>& effects() {
   return list;
 }
 
-/// One quantity, or several, that the configuration of a joint has wrong.
+/// One or several quantities that are wrong in the configuration of a joint.
 struct Wrong {
   std::string name;
   double load = 1.0;       ///< configured over true
@@ -109,7 +109,7 @@ FlexibleCell wrongly_configured(FlexibleCell cell, const Wrong& wrong) {
   return cell;
 }
 
-/// Uniform in a range; the standard leaves distributions to the library, this makes a draw the same everywhere.
+/// Uniform in a range. The results of standard distributions depend on the library; this formula gives the same draw everywhere.
 double draw(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
 }
@@ -228,7 +228,7 @@ std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed) {
         cell_of(link, find_gear("csf-17-50")->spring, scale, damping, temperature, logarithmic(1e-3, 1.0));
     cell.effect = "random";
     for (const Effect& effect : effects()) {
-      const double share = uniform(-1.0, 1.0);  // half of the joints have it
+      const double share = uniform(-1.0, 1.0);  // half of the joints have the effect
       if (share > 0.0) effect.add(cell.plant, share);
     }
     cells.push_back(cell);

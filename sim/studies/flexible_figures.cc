@@ -25,7 +25,7 @@ Panel panel(const std::string& title, const std::string& x, const std::string& y
   return {title, x, y, "", {}, log_y, {}, {}, true};
 }
 
-/// Amplitude of `values` over frequency, by the definition of the transform: the stretches are short.
+/// Amplitude of `values` over frequency, by the definition of the Fourier transform, since the stretches are short.
 Points spectrum(const std::vector<double>& values, double period_s) {
   Points points;
   const std::size_t count = values.size();
@@ -43,7 +43,7 @@ Points spectrum(const std::vector<double>& values, double period_s) {
   return points;
 }
 
-/// The cell of the middle joint with the heavy link, cold, of this step.
+/// Returns the cold cell of this step with the heaviest link below 0.5 kg m2; of several such cells, the last.
 const FlexibleRow* example(const std::vector<FlexibleRow>& rows, double step_rad) {
   const FlexibleRow* found = nullptr;
   for (const FlexibleRow& row : rows)
@@ -54,7 +54,7 @@ const FlexibleRow* example(const std::vector<FlexibleRow>& rows, double step_rad
   return found;
 }
 
-/// Where a cell stands on the map: each step has a band, in it the temperatures rise, and in those the damping.
+/// Height of a cell on the map. Each step has a band; in it the temperatures rise, and at each temperature the damping.
 double map_height(const FlexibleCell& cell) {
   const double temperature = (cell.temperature_C + 10.0) / 55.0;
   const double damping = std::log10(cell.damping_ratio / 0.01);

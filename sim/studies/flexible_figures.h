@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the study of the flexible joint shows, in figures. Offline.
+// The figures of the study of the flexible joint. Offline.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// Responses of the link, the torque's spectrum at rest, and where it oscillates.
+/// Responses of the link, the torque's spectrum at rest, and a map of the joints that oscillate.
 std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
                                      const std::vector<Contender>& contenders);
 

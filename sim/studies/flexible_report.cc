@@ -189,7 +189,7 @@ TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector
     cost.ratios.resize(contenders.size());
     cost.oscillating.resize(contenders.size());
     for (std::size_t c = 0; c < contenders.size(); ++c) {
-      // A run that diverged counts as far off, not as infinitely far.
+      // A run that diverged counts with a large finite ratio, because an infinite one would hide all others.
       cost.ratios[c].push_back(std::min(1e6, row.results[c].link_counted_ratio));
       cost.oscillating[c] += row.results[c].oscillates ? 1 : 0;
     }

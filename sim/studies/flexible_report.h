@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the study of the flexible joint shows: in tables. Offline.
+// The tables of the study of the flexible joint. Offline.
 #pragma once
 
 #include <string>
@@ -13,22 +13,22 @@ namespace strainwave {
 /// Every number of every cell and contender.
 TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
 
-/// Per contender, over all of `rows`.
+/// Summary per contender, over all of `rows`.
 TextTable flexible_summary(const std::string& title, const std::vector<FlexibleRow>& rows,
                            const std::vector<Contender>& contenders);
 
-/// What `judged`, a contender's number, costs against every other: its ratio over theirs, per step.
+/// The price of contender number `judged` against every other: its ratio to the limit over theirs, per step.
 TextTable price_table(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
                       std::size_t judged);
-/// The same, every cell.
+/// The same for every cell.
 TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
                       std::size_t judged);
 
-/// The cells in which `judged` is no better than another, and both of their ratios.
+/// The cells in which `judged` is no better than another contender, with the ratios of both.
 TextTable lost_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
                      std::size_t judged);
 
-/// Effects by what they cost the contender, most expensive first: geometric mean over the same cells without.
+/// Effects ordered by the geometric mean of the daemon's ratio to the limit, the most expensive first.
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
 
 }  // namespace strainwave

@@ -40,7 +40,7 @@ struct Limit {
   double counted_pi2 = 0.0;
 };
 
-/// Damping hardly moves the limit: cells that differ in nothing else share it.
+/// Cells that differ only in damping share a limit, since damping hardly changes it.
 using LimitKey = std::tuple<double, double, double, double, double>;
 
 LimitKey key_of(const FlexibleCell& cell) {
@@ -124,7 +124,7 @@ FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, cons
     return result;
   }
   add_rest(run.trace, cell.step_rad, cell.plant.period_s, result);
-  if (result.oscillates) result.settling_time_s = -1.0;  // it only happened to end within two counts
+  if (result.oscillates) result.settling_time_s = -1.0;  // within two counts at the end only by chance
   return result;
 }
 

@@ -12,14 +12,14 @@ namespace strainwave {
 
 namespace {
 
-/// How the controller learns of the temperature.
+/// One way in which the controller gets the temperature.
 struct Sensing {
   std::string name;
   double lag_s;
   std::function<double(double sensor_C)> told_C;
 };
 
-/// Tells the inner controller another temperature than the sensor's.
+/// Gives the inner controller another temperature than the sensor's.
 class ToldTemperature final : public LoopController {
  public:
   ToldTemperature(LoopController& inner, const Sensing& sensing) : inner_(inner), sensing_(sensing) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A study as one HTML file that needs nothing else: tables, figures (inline SVG), what each shows. Offline.
+// A study as one self-contained HTML file: tables, and figures (inline SVG) with captions. Offline.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace strainwave {
 
-/// The page; the figures must have been drawn into `figure_directory`.
+/// Returns the page. The figures must already be drawn in `figure_directory`.
 std::string html_page(const std::string& introduction_html, const std::vector<TextTable>& tables,
                       const std::vector<Figure>& figures, const std::filesystem::path& figure_directory);
 

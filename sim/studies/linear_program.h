@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear programmes, by CLP. The one place of the simulator that knows the solver. Offline.
+// Linear programmes, solved by CLP. Only this class of the simulator uses the solver. Offline.
 //   minimise c'x   subject to   row_min <= A x <= row_max,   x_min <= x <= x_max
 #pragma once
 
@@ -16,11 +16,11 @@ class LinearProgram {
   int add_unknown(double min, double max, double cost = 0.0);
   /// Adds a row with its bounds; returns its number.
   int add_row(double min, double max);
-  /// Adds `value` times the unknown to the row; each pair once.
+  /// Sets the coefficient of the unknown in the row; each pair only once.
   void set(int row, int unknown, double value) { entries_.push_back({unknown, row, value}); }
 
   struct Solution {
-    bool optimal = false;  ///< else infeasible or given up
+    bool optimal = false;  ///< false: infeasible or given up
     double cost = 0.0;
     std::vector<double> unknowns;
   };

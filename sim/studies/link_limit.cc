@@ -17,7 +17,7 @@ namespace strainwave {
 namespace {
 
 constexpr int kStates = 4;  // motor position and velocity, link position and velocity
-// Solving takes the square of it and more: half a minute for 400 periods with its settling time.
+// The computing time grows at least with its square: half a minute for 400 periods, with the settling time.
 constexpr int kLongestMotion = 700;
 using Matrix = Eigen::Matrix<double, kStates + 2, kStates + 2>;
 
@@ -35,7 +35,7 @@ Matrix exponential(const Matrix& a) {
   return sum;
 }
 
-/// One period under constant torque: x+ = A x + b u + c, the last two columns; c: Coulomb friction and load.
+/// One period under constant torque: x+ = A x + b u + c. The last two columns are b and c; c is Coulomb friction and load.
 Matrix sampled(const LinkLimitConfig& c, double direction) {
   Matrix a = Matrix::Zero();
   a(0, 1) = a(2, 3) = 1.0;
@@ -51,8 +51,8 @@ Matrix sampled(const LinkLimitConfig& c, double direction) {
   return exponential(a * c.period_s);
 }
 
-/// The programme over `periods` periods of motion, in units of the step and of the peak torque. With a `band` the error is only
-/// bounded, from sample `settled` on; else its sum is the cost.
+/// The programme over `periods` periods of motion, in units of the step and of the peak torque. With `band_rad` the
+/// error is only bounded, from sample `settled` on. Otherwise the sum of the error is the cost.
 class Programme {
  public:
   Programme(const LinkLimitConfig& config, int periods, std::optional<double> band_rad = {}, int settled = 0)
@@ -73,7 +73,7 @@ class Programme {
       links_.push_back(after[2]);
       before = after;
     }
-    // It ends at rest: motor and link no longer move against each other.
+    // The motion ends at rest, with the spring carrying only the load.
     add_equal(before[0], before[2], config.load_torque_Nm * direction_ / config.stiffness_Nm_rad / step_rad_);
     add_equal(before[1], before[3], 0.0);
     const int rest = program_.add_row(0.0, 0.0);
@@ -142,7 +142,7 @@ class Programme {
   std::vector<int> torques_, links_;
 };
 
-/// The speed at which what the motor can do is all spent on friction, the supply and the load; infinite where nothing grows with it.
+/// The speed at which friction, supply and load take all of the motor's torque; infinite if none of them grows with speed.
 double top_speed_rad_s(const LinkLimitConfig& c) {
   const double viscous_Nms_rad = c.friction.viscous_Nms_rad + c.link_viscous_Nms_rad;
   const double steady_Nm = c.friction.coulomb_Nm + std::abs(c.load_torque_Nm);
@@ -168,8 +168,8 @@ void require_motion(const LinkLimitConfig& c) {
                          " periods that are solved for");
 }
 
-/// Periods that a motion surely takes at most: bang-bang of the total inertia at what friction leaves, one swing of the spring
-/// besides; at speed the supply's line takes over.
+/// First estimate of the number of periods: bang-bang of the total inertia with the torque that friction
+/// leaves, and one swing of the spring. At high speed the supply's line decides.
 int first_guess(const LinkLimitConfig& c) {
   const double inertia = c.motor_inertia_kgm2 + c.link_inertia_kgm2;
   const double acceleration =

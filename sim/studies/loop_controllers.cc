@@ -10,8 +10,8 @@ namespace strainwave {
 
 namespace {
 
-// More than the table's static friction to break away: its fit is no better than some per cent, and a joint that is pushed too weakly stays
-// where it is until the integral has grown.
+// Breakaway takes more than the table's static friction, because its fit is only accurate to some per cent. A
+// joint that is pushed too weakly stays in place until the integral has grown.
 constexpr double kBreakaway = 1.0 + 0.1;
 constexpr double kRestZone_rad = 1e-6;
 

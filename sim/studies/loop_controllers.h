@@ -12,11 +12,11 @@
 
 namespace strainwave {
 
-/// What the daemon's controller is given of `sample`, with a temperature that need not be the sensor's; NaN: it is not known.
+/// Returns the measurement of `sample` for the daemon's controller. The temperature may differ from the sensor's; NaN: not known.
 JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) noexcept;
 
-/// Backward difference of the measured position, as Zhao (2006) takes velocity from the encoder; 0 at the
-/// first sample.
+/// Backward difference of the measured position, from which Zhao (2006) takes the velocity; 0 at the first
+/// sample.
 class BackwardDifference {
  public:
   explicit BackwardDifference(double period_s) noexcept : period_s_(period_s) {}
@@ -32,18 +32,18 @@ class BackwardDifference {
   std::optional<double> last_;
 };
 
-/// C1..C4: scheduled (or temperature-free) state feedback, as control/ has it. Velocity is the exact one where the plant offers it, otherwise
-/// the backward difference. There is no plan: those with temperature compensate friction towards the setpoint.
+/// C1..C4: the state feedback of control/, scheduled or without temperature. The velocity is exact if the plant offers it,
+/// otherwise the backward difference. There is no plan. With temperature, friction is compensated in the direction of the setpoint.
 ///
 ///   d = sign(setpoint - position)
 ///   moving    f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
 ///   at rest   f = 1.1 Fs(T) d, farther than 1e-6 rad from the setpoint
 ///
-/// Source: Zhao (2006), (3-9)..(3-35), section 5.4. d is where the joint must go, and a joint at rest needs all of Fs to move again: he says
-/// neither.
+/// Source: Zhao (2006), (3-9)..(3-35), section 5.4. He states neither the sign d, here the direction to the
+/// setpoint, nor that a joint at rest needs all of Fs to move again.
 class FeedbackLoopController final : public LoopController {
  public:
-  /// `gains`: the table's; `torque_limit_Nm` may be infinite.
+  /// `gains` are those of the table; `torque_limit_Nm` may be infinite.
   FeedbackLoopController(const FeedbackGains& gains, const FuzzyFriction& friction,
                          const PlantIdentity& plant, double torque_limit_Nm) noexcept;
 
@@ -63,7 +63,7 @@ class FeedbackLoopController final : public LoopController {
   std::optional<double> last_setpoint_rad_;
 };
 
-/// Gains of that PID on e = setpoint - position.
+/// Gains of the PID of Zhao (2006) on e = setpoint - position.
 struct PidGains {
   double proportional_Nm_rad = 430.1;
   double integral_Nm_rads = 1430.1;

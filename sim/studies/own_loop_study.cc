@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBusPeriod_s = 1e-3;
 constexpr std::array<const char*, 4> kNames = {"alone", "plan", "wind-up", "all offsets"};
-/// For which a drive is tuned that has a margin.
+/// Additional delay that a drive with a margin is tuned for.
 constexpr double kMargin_periods = 1.0;
 
 JointPlantConfig plant_at(double rate_Hz) {
@@ -41,8 +41,8 @@ ServoJoint tuned_joint(const JointPlantConfig& plant, double margin_periods) {
   return joint;
 }
 
-/// The daemon, the bus, the drive's interpolation, and its cascade. An order acts a period of the bus after the reading that it is made of,
-/// and is reached at the end of that period.
+/// The daemon, the bus, the drive's interpolation and its cascade. An order acts in the bus period that
+/// begins one period after its reading. The drive reaches its position at the end of that period.
 class OwnLoop final : public LoopController {
  public:
   OwnLoop(const JointPlantConfig& plant, const GainTable& table, const SmoothPath& path, Told told,
@@ -96,10 +96,10 @@ class OwnLoop final : public LoopController {
   int steps_;
   StreamedController daemon_;
   CascadePeer cascade_;
-  Sent acting_;   ///< until the next SYNC
-  Sent pending_;  ///< from then on
+  Sent acting_;   ///< order until the next SYNC
+  Sent pending_;  ///< order from the next SYNC on
   double from_rad_ = 0.0;
-  double torque_sum_Nm_ = 0.0;  ///< since the last SYNC: the drive says the mean
+  double torque_sum_Nm_ = 0.0;  ///< since the last SYNC; the drive reports the mean
   long tick_ = 0;
 };
 
@@ -139,7 +139,7 @@ std::vector<OwnLoopRow> run_own_loops(const FlexibleTables& tables) {
   for (const double temperature_C : kOwnLoopTemperatures_C)
     for (const FrictionWay& way : ways)
       for (const double rate_Hz : kDriveRates_Hz)
-        // Faster drives are tuned by the joint's resonance, which the margin does not change.
+        // Faster drives are tuned by the joint's resonance, which the margin does not change. The torque mode needs the table's period.
         if ((&way != &ways.front() && &way != &ways.back()) || rate_Hz == kDriveRates_Hz.front())
           jobs.push_back({&way, {way.name, rate_Hz, temperature_C, 0.0, 0.0}});
   run_in_parallel(jobs.size(), [&](std::size_t i) {

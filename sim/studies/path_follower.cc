@@ -10,7 +10,7 @@ namespace strainwave {
 namespace {
 
 constexpr int kInterval = 10;       // periods between two samples of the stream
-constexpr double kRounding = 1e-9;  // makes no period of its own
+constexpr double kRounding = 1e-9;  // keeps a rounding error from adding a period
 
 }  // namespace
 
@@ -51,8 +51,8 @@ void StreamedController::reset() noexcept {
   periods_ = 0;
 }
 
-// Each quantity for the instant that it is of: the position's reading, the middle of the difference that is the velocity, the middle
-// of the period over which the torque acts.
+// Each quantity belongs to its own instant: the position to its reading, the velocity to the middle of its
+// difference. The acceleration belongs to the middle of the period over which the torque acts.
 double PeerOnPath::torque_Nm(const LoopSample& sample) noexcept {
   if (!started_) peer_->reset(sample.joint_position_rad);
   started_ = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controllers of the study of temperature (sim/studies/temperature_study.h): each follows a path that was planned beforehand, as a
-// program's stream or as a drive's profile. torque_Nm() is real-time safe.
+// The controllers of the temperature study (sim/studies/temperature_study.h). Each follows a path that was
+// planned beforehand, as a program's stream or as a drive's profile. torque_Nm() is real-time safe.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace strainwave {
 
-/// The daemon's controller under a stream of the path: samples for every tenth period, with velocity and acceleration, one interval
-/// ahead of what the controller needs (JointController::lead_s()).
+/// The daemon's controller under a stream of the path. Samples for every tenth period, with velocity and
+/// acceleration, arrive one interval before the controller needs them (JointPlan::lead_s()).
 class StreamedController final : public LoopController {
  public:
-  /// What it knows of the temperature: the sensor's plus `shift_C`, always the same, or nothing.
+  /// The known temperature: the sensor's reading plus `shift_C`, or a fixed value.
   struct Told {
     std::optional<double> fixed_C;
     double shift_C = 0.0;  ///< NaN: the sensor is missing
@@ -25,7 +25,7 @@ class StreamedController final : public LoopController {
   StreamedController(const JointControllerConfig& config, const GainTable& table, const SmoothPath& path,
                      const Told& told) noexcept;
   double torque_Nm(const LoopSample& sample) noexcept override;
-  /// The same, with all of the controller's result.
+  /// Runs one period and returns all of the controller's result.
   JointStep step(const LoopSample& sample) noexcept;
   void reset() noexcept override;
   bool switched_off() const noexcept override { return off_; }
@@ -42,7 +42,7 @@ class StreamedController final : public LoopController {
   long periods_ = 0;
 };
 
-/// One of sim/studies/peers/ on the path as its motor's reference.
+/// One of sim/studies/peers/, with the path as its motor's reference.
 class PeerOnPath final : public LoopController {
  public:
   PeerOnPath(std::unique_ptr<ServoPeer> peer, const ServoJoint& joint, const SmoothPath& path)

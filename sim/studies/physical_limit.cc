@@ -18,7 +18,7 @@ void require_none(const char* key, double value) {
                      "0 is allowed: the limit is that of the joint without");
 }
 
-/// What neither limit knows.
+/// Refuses the effects that neither limit covers.
 void require_no_effects(const JointPlantConfig& plant) {
   const JointEffects& effects = plant.effects;
   require_none("gravity.torque_Nm", effects.gravity.torque_Nm);
@@ -33,7 +33,7 @@ std::size_t sample_count(const ClosedLoopConfig& config) {
   return static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));
 }
 
-/// `value` of the time; the same at every sample.
+/// Requires that `value`, a function of time, is the same at every sample.
 template <typename Value>
 void require_constant(const ClosedLoopConfig& config, const char* key, const Value& value) {
   const double first = value(0.0);

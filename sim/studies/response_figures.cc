@@ -13,10 +13,10 @@ namespace {
 constexpr int kSetpointColour = 7;
 constexpr int kLimitColour = 0;
 
-/// What is smaller is drawn as this: a logarithmic axis has no 0.
+/// The smallest value that is drawn, since a logarithmic axis has no 0.
 constexpr double kSmallestDrawn_rad = 1e-9;
 
-/// The same colour for a contender in every figure.
+/// Returns the same colour for a contender in every figure.
 int colour_of(const Chapter6& chapter, const std::string& contender) {
   const auto found = std::find(chapter.contenders.begin(), chapter.contenders.end(), contender);
   return 1 + static_cast<int>(found - chapter.contenders.begin());
@@ -49,7 +49,7 @@ std::string range_text(int range) {
 
 Series contender_series(const Chapter6& chapter, const Chapter6Key& key, const std::string& contender,
                         double from_s, double to_s, double (*value)(const TracePoint&)) {
-  // C3's gains are nearly C1's: one would hide the other.
+  // C3's gains are nearly C1's, so that one curve would hide the other.
   const Mark mark = contender == "C3" ? Mark::kDashed : Mark::kLine;
   return {contender, over_time(chapter.at(key, contender).trace, from_s, to_s, value), mark,
           colour_of(chapter, contender), false};
@@ -80,7 +80,7 @@ Figure step_responses(const Chapter6& chapter, Setting setting, int range) {
   return figure;
 }
 
-/// Decades around all that is drawn, with room below: what lies on the axis is not seen.
+/// Decades around all drawn values, with room below, since a point on the axis is invisible.
 std::vector<double> decades(const std::vector<Series>& drawn) {
   double low = 1.0;
   double high = kSmallestDrawn_rad;
@@ -113,7 +113,7 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
   return figure;
 }
 
-/// What the scale must hold: the error of the scheduled controllers; the others may leave the figure.
+/// The scale shows the largest error of the scheduled controllers; other curves may leave the figure.
 double largest_error_urad(const Chapter6& chapter, const Chapter6Key& key, double from_s, double to_s) {
   double largest_urad = 20.0;
   for (const char* contender : {"C4", "C4+"})

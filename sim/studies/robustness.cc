@@ -44,12 +44,12 @@ ClosedLoopConfig drawn_config(const RobustnessConfig& config, std::size_t index,
   std::seed_seq seed{config.seed, static_cast<std::uint64_t>(index)};
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) {
-    // The standard leaves distributions to the library; this makes a draw the same everywhere.
+    // The results of standard distributions depend on the library; this formula gives the same draw everywhere.
     return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
   };
   ClosedLoopConfig result;
   result.plant = config.plant;
-  // What varies is what the joint carries: the link of a flexible joint, the one inertia of a rigid one.
+  // The inertia that the joint carries varies: the link of a flexible joint, all of a rigid one.
   auto& transmission = result.plant.effects.transmission;
   double& varied_kgm2 = transmission ? transmission->link_inertia_kgm2 : result.plant.joint.inertia_kgm2;
   varied_kgm2 = varied_kgm2 * uniform(1.0 - config.inertia_spread, 1.0 + config.inertia_spread) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a wrong model costs: the same controllers on joints drawn at random around the one they were designed
-// for. On a flexible joint the link's inertia varies, and the link is judged. Offline. Every draw depends only on the seed and its number, so a single one can be repeated.
+// The same gains on joints drawn at random around the one that they were designed for. On a flexible joint the link's inertia
+// varies, and the link is judged. Each draw depends only on the seed and its number, so that it can be repeated alone. Offline.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@ struct RobustnessConfig {
   double duration_s = 2.0;
 };
 
-/// One joint, and what each contender did on it.
+/// One joint, and the results of each contender on it.
 struct RobustnessDraw {
   double inertia_kgm2 = 0.0;  ///< motor and link together
   double friction_factor = 1.0;
   double load_torque_Nm = 0.0;
   double temperature_C = 0.0;
-  double limit_pi2 = 0.0;  ///< of this joint under its load
+  double limit_pi2 = 0.0;  ///< limit of this joint under its load
   std::vector<LoopStatistics> statistics;
   std::vector<bool> diverged;
 };
@@ -42,13 +42,13 @@ struct RobustnessDraw {
 std::vector<RobustnessDraw> run_robustness(const RobustnessConfig& config,
                                            const std::vector<Contender>& contenders);
 
-/// Draw by draw, and percentiles per contender.
+/// Tables of each draw, and of percentiles per contender.
 TextTable robustness_table(const std::vector<RobustnessDraw>& draws,
                            const std::vector<Contender>& contenders);
 TextTable robustness_summary(const std::vector<RobustnessDraw>& draws,
                              const std::vector<Contender>& contenders);
 
-/// Distribution of PI2 over the limit and of the final error, and both over inertia and friction.
+/// Distribution of PI2 over the limit and of the final error, and that ratio over inertia and over friction.
 Figure robustness_figure(const std::vector<RobustnessDraw>& draws, const std::vector<Contender>& contenders);
 
 }  // namespace strainwave

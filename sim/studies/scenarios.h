@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenarios of Zhao (2006), chapter 6, with what it leaves open fixed (docs/theory.md): which
-// setpoints, which temperature, for how long, on which plant. Offline.
+// The scenarios of Zhao (2006), chapter 6: setpoints, temperature, duration and plant. docs/theory.md has the
+// values that the source leaves open. Offline.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace strainwave {
 enum class Scenario { kStaircase, kRamp };
 inline constexpr std::array kScenarios = {Scenario::kStaircase, Scenario::kRamp};
 
-/// Lower end of each of the four ranges in rad; the ramp's setpoint.
+/// Lower end of each of the four ranges in rad, which is also the ramp's setpoint.
 inline constexpr std::array kRangeStart_rad = {0.001, 0.01, 0.1, 1.0};
 inline constexpr int kRangeCount = 4;
 

@@ -8,8 +8,8 @@ namespace strainwave {
 
 namespace {
 
-// The largest acceleration of a least-jerk motion over distance D in time T is 10 / sqrt(3) D / T^2, that of a change of velocity
-// by U is 3/2 U / T.
+// The largest acceleration of a minimum-jerk motion over distance D in time T is 10 / sqrt(3) D / T^2. For a
+// change of velocity by U it is 3/2 U / T.
 const double kMovePeak = 10.0 / std::sqrt(3.0);
 constexpr double kChangePeak = 1.5;
 

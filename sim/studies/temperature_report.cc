@@ -19,7 +19,7 @@ constexpr const char* kRightSensor = "right";
 
 using Key = std::string TemperatureRow::*;
 
-/// The values of `key`, each once, in their order.
+/// The distinct values of `key`, in order of appearance.
 std::vector<std::string> distinct(const std::vector<TemperatureRow>& rows, Key key) {
   std::vector<std::string> values;
   for (const TemperatureRow& row : rows)
@@ -38,7 +38,7 @@ const TemperatureRow& row_of(const std::vector<TemperatureRow>& rows, const std:
   return *found;
 }
 
-/// RMS of one way and sensor over another's, per motion.
+/// RMS error of one way and sensor over that of another way, per motion.
 std::vector<double> ratios(const std::vector<TemperatureRow>& rows, const std::string& way,
                            const std::string& sensor, const std::string& over_way, double temperature_C) {
   std::vector<double> values;
@@ -52,7 +52,7 @@ std::string below_percent(double ratio) {
   return number(std::round(1000.0 * (1.0 - ratio)) / 10.0, 3);
 }
 
-/// In urad with three digits, without an exponent.
+/// In urad with three significant digits, without an exponent.
 std::string microradian(double angle_rad) {
   const double urad = 1e6 * angle_rad;
   const double unit = urad > 0.0 ? std::pow(10.0, std::floor(std::log10(urad)) - 2.0) : 1.0;

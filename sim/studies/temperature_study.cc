@@ -22,10 +22,10 @@ constexpr double kTotalInertia_kgm2 = kReferenceInertia_kgm2 + kLinkInertia_kgm2
 constexpr double kDamping = 0.02;
 constexpr double kFixed_C = 30.0;
 constexpr double kOff_C = 10.0;
-// Late by a quarter of an hour, in a hall that is heated in the morning.
+// The sensor lags by a quarter of an hour, in a hall that is heated in the morning.
 constexpr double kLate_h = 0.25;
 constexpr double kWarming_C_h = 20.0;
-// Less than half of what the actuator can do with this link.
+// Less than half of the acceleration that the actuator can give this link.
 constexpr double kAcceleration_rad_s2 = 20.0;
 constexpr double kBegin_s = 0.05;
 constexpr double kHold_s = 0.3;

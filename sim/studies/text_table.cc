@@ -21,7 +21,7 @@ std::vector<std::string> escaped(std::vector<std::string> fields) {
   return fields;
 }
 
-/// A bar within a field would end its cell.
+/// Escapes each bar, because a bar within a field would end its cell.
 std::vector<std::string> of_markdown(std::vector<std::string> fields) {
   for (std::string& field : fields)
     for (std::size_t at = 0; (at = field.find('|', at)) != std::string::npos; at += 2) field.insert(at, "\\");
@@ -32,7 +32,7 @@ std::vector<std::string> of_markdown(std::vector<std::string> fields) {
 
 std::string number(double value, int digits) {
   std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value + 0.0);  // of a negative zero a plain one
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value + 0.0);  // + 0.0 makes -0 a plain 0
   return buffer.data();
 }
 

@@ -17,7 +17,7 @@ struct TextTable {
   std::string html() const;
 };
 
-/// `value` with `digits` significant digits, "inf" or "nan" in words.
+/// `value` with `digits` significant digits, or "inf" or "nan".
 std::string number(double value, int digits = 4);
 
 /// `text` with the characters that HTML reserves replaced.

@@ -29,8 +29,8 @@ class Move {
         to_rad_(to_rad),
         direction_(sign(to_rad - from_rad)) {}
 
-  /// Where and when the joint stops when the torque reverses `switch_s` after the start; adds the true state
-  /// at each sample to `trace` when there is one.
+  /// Returns where and when the joint stops if the torque reverses `switch_s` after the start. Adds the true
+  /// state at each sample to `trace`, if there is one.
   Stop simulate(double switch_s, std::vector<TracePoint>* trace) const {
     JointState state{from_rad_, 0.0, true};
     const double period_s = config_.plant.period_s;
@@ -51,7 +51,7 @@ class Move {
     }
   }
 
-  /// The switching instant that ends on the setpoint. A move that is not over within `longest_s` has none: full torque until then.
+  /// The switching instant for which the move ends on the setpoint. A move longer than `longest_s` keeps full torque until then.
   double switching_time_s(double longest_s) const {
     const JointInput start = input(first_, direction_);
     if (!(direction_ * (start.torque_Nm - start.load_torque_Nm) > start.friction.static_Nm))
@@ -86,7 +86,7 @@ class Move {
             torque_Nm, config_.ambient.at(time_s),      state.position_rad};
   }
 
-  /// The stop within `brake_s` of `state`; beyond it the same torque would drive the joint back.
+  /// The stop within `brake_s` after `state`. After the stop the same torque would drive the joint back.
   Stop stop(const JointState& state, const JointInput& brake, double brake_s, double begin_s) const {
     const auto after = [&](double duration_s) {
       JointState result = state;

@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kNotchShare = 0.1;  // width at -3 dB, of the resonance
+constexpr double kNotchShare = 0.1;  // width at -3 dB as a share of the resonance
 
 }  // namespace
 
@@ -28,7 +28,7 @@ double CascadePeer::step(const Reference& reference, double joint_position_rad) 
       error_Nm + integral_Nm_ + share_ * joint_.inertia_kgm2 * reference.acceleration_rad_s2;
   const double filtered_Nm = notch_ ? notch_->step(wanted_Nm) : wanted_Nm;
   const double torque_Nm = std::clamp(filtered_Nm, -joint_.torque_limit_Nm, joint_.torque_limit_Nm);
-  // A saturated drive does not wind up.
+  // Anti-windup: a saturated drive holds its integral.
   if (torque_Nm == filtered_Nm) integral_Nm_ += 0.5 * bandwidth_rad_s_ * joint_.period_s * error_Nm;
   return torque_Nm;
 }

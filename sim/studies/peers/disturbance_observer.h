@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disturbance observer on top of a proportional-derivative controller: whatever keeps the joint from moving as its nominal inertia
-// would, friction included, is estimated and added. Real-time safe. Source: Ohnishi, Shibata and Murakami (1996), "Motion control for
-// advanced mechatronics"; gains by sim/studies/peers/servo_peer.h.
+// A disturbance observer on top of a proportional-derivative controller. It estimates and compensates the torque, including
+// friction, that makes the motion deviate from that of the nominal inertia. Real-time safe. Source: Ohnishi, Shibata and
+// Murakami (1996), "Motion control for advanced mechatronics"; gains by sim/studies/peers/servo_peer.h.
 //
 //   d    = Q (u - J w'),  Q = g / (s + g)               as  Q (u + g J w) - g J w: no acceleration is needed
 //   u    = J (a_r + kv (w_r - w) + kp (p_r - p)) + d
@@ -24,11 +24,11 @@ class DisturbanceObserverPeer final : public ServoPeer {
   ServoJoint joint_;
   double bandwidth_rad_s_;
   double observer_rad_s_;
-  double observer_share_;  ///< of Q in a period
+  double observer_share_;  ///< gain of Q per period
   BackwardDifference difference_;
   double filtered_Nm_ = 0.0;
-  double applied_Nm_ = 0.0;  ///< of the last period
-  double acting_Nm_ = 0.0;   ///< of the one before, which with one period of delay acted over the last
+  double applied_Nm_ = 0.0;  ///< torque of the last period
+  double acting_Nm_ = 0.0;   ///< torque of the period before, which acts if the delay is one period
 };
 
 }  // namespace strainwave

@@ -15,13 +15,13 @@ namespace strainwave {
 
 namespace {
 
-// This share of the torque limit is spent on errors that are these shares of the wind-up that it makes, and of the speed with which that
-// swings.
+// The weights accept errors for this share of the torque limit. The errors are these shares of the wind-up
+// that the torque causes, and of the speed at which that wind-up swings.
 constexpr double kTorqueShare = 0.1;
 constexpr double kLinkShare = 0.4;
 constexpr double kMotorShare = 1.6;
 constexpr double kSpeedShare = 0.15;
-// Friction turns within a period where the joint does.
+// Friction reverses within a period if the joint does.
 constexpr double kFrictionChange_Nm = 5.0;
 constexpr double kTorqueNoise_Nm = 0.9;
 
@@ -33,7 +33,7 @@ double link_inertia_kgm2(const ServoJoint& joint) noexcept {
   return joint.inertia_kgm2 - joint.motor_inertia_kgm2;
 }
 
-// [ thl, wl, thm, wm ] = T x: what is weighted.
+// [ thl, wl, thm, wm ] = T x: the weighted quantities.
 Eigen::Matrix4d from_state() {
   Eigen::Matrix4d T;
   T << 1.0, 0.0, 1.0, 0.0,  //
@@ -55,7 +55,7 @@ Eigen::RowVector4d regulator(const Eigen::Matrix<double, 5, 5>& sampled, const L
   return -(B.transpose() * *P * A) / (R + B.dot(*P * B)) * T;
 }
 
-// The filter's Riccati equation is the regulator's of the transposed plant.
+// The filter's Riccati equation is that of the regulator for the transposed plant.
 Eigen::VectorXd kalman(const Eigen::Matrix<double, 5, 5>& sampled, const ServoJoint& joint,
                        const LqgWeights& weights) {
   const double velocity_rad_s = weights.torque_noise_Nm * joint.period_s / joint.motor_inertia_kgm2;
@@ -100,7 +100,7 @@ LqgPeer::LqgPeer(const ServoJoint& joint, const LqgWeights& weights)
   assert(delay_ <= kMaxDelay);
 }
 
-// The reference's velocity is that of the last period's middle; its acceleration, and with it the wind-up, of when the torque acts.
+// The reference's velocity belongs to the middle of the last period; its acceleration, which gives the wind-up, to the acting torque.
 Eigen::Vector4d LqgPeer::planned(const Reference& reference) const noexcept {
   const double now_rad_s2 = accelerations_rad_s2_[delay_];
   const double before_rad_s2 = accelerations_rad_s2_[delay_ + 1];

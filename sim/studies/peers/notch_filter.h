@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The notch of a servo drive's torque: a band around one frequency is taken away, whole in its middle, all else passes. Real-time safe.
-// Sources: Siemens, SINAMICS S120 function manual "Drive functions" (current setpoint filter, band-stop with infinite notch depth:
-// numerator damping 0, denominator damping bandwidth / 2 f); HIWIN E1 user manual 10.6.3 (bandwidth f / Q). Bilinear with the frequency
-// warped beforehand, as Synapticon's object 0x2023 is.
+// The notch in a servo drive's torque removes a band around one frequency, completely in its middle, and passes all else.
+// Real-time safe. Sources: Siemens, SINAMICS S120 function manual "Drive functions" (current setpoint filter, band-stop with
+// infinite notch depth: numerator damping 0, denominator damping bandwidth / 2 f); HIWIN E1 user manual 10.6.3 (bandwidth
+// f / Q). The discretisation is bilinear with a pre-warped frequency, as Synapticon's object 0x2023.
 //
 //   N(s) = (s^2 + w^2) / (s^2 + b w s + w^2)             b: width at -3 dB over w; slower signals are late by b / w
 //   s    = c (z - 1) / (z + 1),   c = w / tan(w h / 2)   so that the zero stays at w
@@ -15,16 +15,16 @@ namespace strainwave {
 
 class NotchFilter {
  public:
-  /// `frequency_rad_s` in (0, pi / period_s); `width_share` > 0 of it.
+  /// `frequency_rad_s` in (0, pi / period_s); `width_share` > 0: the width at -3 dB over that frequency.
   NotchFilter(double frequency_rad_s, double width_share, double period_s) noexcept;
   double step(double input) noexcept;
-  /// As if it had been given 0 for ever.
+  /// Resets to the state after an endless input of 0.
   void reset() noexcept;
 
  private:
   double cosine_;                   ///< 2 cos(w h)
   double width_;                    ///< g
-  std::array<double, 2> inputs_{};  ///< the newer first
+  std::array<double, 2> inputs_{};  ///< newest first
   std::array<double, 2> outputs_{};
 };
 

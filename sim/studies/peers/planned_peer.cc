@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAccelerationShare = 0.6;
 constexpr double kSpeedShare = 0.85;
-constexpr double kLargestSpeed_rad_s = 1e3;  // of a motor without a supply's line
+constexpr double kLargestSpeed_rad_s = 1e3;  // for a motor without a supply's line
 
 MotionLimits drive_limits(const JointPlantConfig& plant) {
   const MotorLimits& motor = plant.motor;
@@ -47,7 +47,7 @@ PlannedPeer::PlannedPeer(std::unique_ptr<ServoPeer> peer, const JointPlantConfig
   shaper_.set_limits(drive_limits(plant));
 }
 
-// Position and velocity as they are read now, the acceleration one period ahead: of when the torque acts.
+// Position and velocity belong to the present reading, the acceleration to the next period, in which the torque acts.
 double PlannedPeer::torque_Nm(const LoopSample& sample) noexcept {
   const double read_rad = sample.joint_position_rad;
   if (!started_) {

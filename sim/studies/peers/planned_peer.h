@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One of the peers on setpoints: a drive plans its motion there itself. The plan is a trapezoid of velocity, smoothed by a mean over one
-// period of the resonance, which then does not swing (Singer and Seering 1990). Real-time safe: torque_Nm(). Joint side, SI.
+// One of the peers under setpoints: the drive plans its motion itself. A mean over one period of the resonance smooths a trapezoidal
+// velocity profile, so that it does not excite the resonance (Singer and Seering 1990). Real-time safe: torque_Nm(). Joint side, SI.
 //
-//   acceleration  0.6 of the peak torque over the inertia: the rest is friction's and the feedback's
-//   velocity      where the supply leaves 0.85 of the peak torque
+//   acceleration  0.6 of the peak torque over the inertia: the rest is for friction and the feedback
+//   velocity      the speed at which the supply leaves 0.85 of the peak torque
 #pragma once
 
 #include <memory>
@@ -31,8 +31,8 @@ class PlannedPeer final : public LoopController {
   bool started_ = false;
 };
 
-/// What a user would take instead: "cascade", "cascade with feed-forward", "cascade with feed-forward and notch", "disturbance observer",
-/// "LQG". Each on a joint with a spring and a torque limit.
+/// The alternatives of a user: "cascade", "cascade with feed-forward", "cascade with feed-forward and notch",
+/// "disturbance observer", "LQG". Each needs a joint with a spring and a torque limit.
 std::vector<Contender> peer_contenders();
 
 }  // namespace strainwave
