@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The subcommands of strainwave-design. Each adds itself to the program and leaves in `chosen` what is to be done when it is
-// given; that throws InputError. Offline.
+// The subcommands of strainwave-design. Each function adds one to the program. If the user gives that
+// subcommand, `chosen` receives its body, which may throw InputError. Offline.
 #pragma once
 
 #include "base/manual/command_line.h"

@@ -14,7 +14,6 @@ namespace strainwave {
 
 namespace {
 
-// Now, or SOURCE_DATE_EPOCH for reproducible files. Throws InputError.
 std::time_t creation_time() {
   constexpr const char* kVariable = "SOURCE_DATE_EPOCH";
   const char* const epoch = std::getenv(kVariable);  // NOLINT(concurrency-mt-unsafe): one thread

@@ -34,13 +34,13 @@ struct Job {
   double max_C = 0.0;
   std::vector<Outlier> outliers;  // rows of the data
 
-  // A decay over much less than the data's spacing, or much more than their range, cannot be told from a step or a line.
+  // A decay much shorter than the data's spacing looks like a step; one much longer than their range, like a line.
   double least_decay_C() const { return 1.0; }
   double largest_decay_C() const { return 10.0 * (max_C - min_C); }
 };
 
 constexpr double kMaxGearRatio = 1e5;
-// A rule has a centre and a width, which two temperatures fix.
+// A rule has a centre and a width, which take two temperatures to determine.
 constexpr int kTemperaturesPerRule = 2;
 
 void check(const FitCatalogueOptions& options) {
@@ -116,8 +116,8 @@ Estimate<ExponentialFit> fit_law(const Job& job) {
   return estimate;
 }
 
-/// The better of two: the memberships that were found, with consequents under which the curve falls, and memberships that let it fall.
-/// Free memberships may lead back to a colder rule at the warm end, and then only a constant would fall.
+/// The better of two fits: the memberships found, with consequents that make the curve fall, or ordered memberships.
+/// Free memberships may return to a colder rule at the warm end. Then only a constant curve would fall.
 FuzzyFit fall_everywhere(const Job& job, const FitProblem& problem, const MembershipBox& box,
                          const FuzzyFit& found) {
   std::vector<FuzzyFit> candidates{found};
@@ -137,7 +137,7 @@ FuzzyFit fall_everywhere(const Job& job, const FitProblem& problem, const Member
   return *best;
 }
 
-/// The rules whose search is `options`, of `problem`; memberships first, then consequents under the condition that is asked for.
+/// Fits the rules to `problem`: a search with `options` for the memberships, then consequents under the requested condition.
 Estimate<FuzzyFit> fit_rules(const Job& job, const FitProblem& problem, const EpgsOptions& options) {
   Estimate<FuzzyFit> estimate;
   MembershipBox box;
@@ -154,7 +154,7 @@ Estimate<FuzzyFit> fit_rules(const Job& job, const FitProblem& problem, const Ep
   return estimate;
 }
 
-/// The exponential law at as many temperatures as rules cannot lose themselves between.
+/// The exponential law, sampled so densely that the rules cannot deviate between the samples.
 FitProblem sampled_law(const Job& job, const ExponentialFit& law) {
   constexpr Eigen::Index kTemperatures = 51;
   FitProblem problem = job.problem;
@@ -163,7 +163,7 @@ FitProblem sampled_law(const Job& job, const ExponentialFit& law) {
   return problem;
 }
 
-/// Whether the rules follow the law instead of the data, and says why.
+/// Whether the rules follow the law instead of the data. Prints the reason if `auto` decides so.
 bool rules_follow_the_law(const Job& job) {
   if (job.options.rules_from != "auto") return job.options.rules_from == "exponential";
   const auto temperatures = static_cast<int>(job.problem.targets.temperature_C.size());
@@ -187,7 +187,7 @@ void report_rise(const Job& job, const FuzzyFit& fit) {
                 rise.temperature_C, job.problem.physical ? " (--non-increasing curve)" : "");
 }
 
-/// `law`: where it was fitted already; else it is where the rules follow it.
+/// `law`: the law, if it is already fitted. Otherwise it is fitted here if the rules follow it.
 FuzzyFrictionRecord fit_fuzzy_model(const Job& job, const std::optional<ExponentialFit>& law) {
   const bool follow = rules_follow_the_law(job);
   const FitProblem problem = follow ? sampled_law(job, law ? *law : fit_law(job).fit) : job.problem;

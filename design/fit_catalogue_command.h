@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `strainwave-design fit CATALOGUE`: friction over temperature from the manufacturer's catalogue, with what is doubtful
-// of it said. Offline.
+// `strainwave-design fit CATALOGUE` fits friction over temperature to the manufacturer's catalogue, and warns
+// of doubtful data. Offline.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct FitCatalogueOptions {
   std::optional<double> starting_torque_Ncm;  ///< at 25 degC, see read_catalogue()
 };
 
-/// Fits, reports and writes the friction file; the exit status. Throws InputError.
+/// Fits, reports and writes the friction file. Returns the exit status. Throws InputError.
 ExitStatus fit_catalogue(const FitCatalogueOptions& options);
 
 }  // namespace strainwave

@@ -21,7 +21,7 @@ namespace {
 
 // Points this close in temperature belong to one measurement.
 constexpr double kGap_C = 3.0;
-// Where the result is judged.
+// Temperature step at which the result is judged.
 constexpr double kGrid_C = 5.0;
 
 struct Measurements {
@@ -63,7 +63,7 @@ Measurements read_logs(const FitLogOptions& options, const FrictionFile& prior) 
   return all;
 }
 
-/// Standard deviation of a point, from what the regressions of all temperatures leave over.
+/// Standard deviation of a point, from the residuals of the regressions at all temperatures.
 double pooled_noise_Nm(const std::vector<FrictionRegression>& measured) {
   double squares = 0.0;
   int freedom = 0;
@@ -89,13 +89,13 @@ std::vector<FrictionRegression> regress(const Measurements& all, const StribeckS
   return measured;
 }
 
-/// Slow, middle and fast, of the speeds that were measured.
+/// The slowest, a middle and the fastest of the measured speeds.
 std::vector<double> judged_speeds(const std::vector<SteadyPoint>& points) {
   const auto [slow, fast] = std::ranges::minmax(points, {}, &SteadyPoint::speed_rad_s);
   return {slow.speed_rad_s, std::sqrt(slow.speed_rad_s * fast.speed_rad_s), fast.speed_rad_s};
 }
 
-/// Prints the merged friction over the range of temperatures and returns those where it is not known well enough.
+/// Prints the merged friction over the range of temperatures. Returns the temperatures at which it is not known well enough.
 std::vector<double> judge(const FrictionUpdate& update, const FuzzyFriction& prior,
                           const std::vector<double>& speeds, double quantile, double wanted) {
   std::vector<double> missing_C;
@@ -163,7 +163,7 @@ ExitStatus fit_logs(const FitLogOptions& options) {
       "torque\n",
       100.0 * options.weights.common, 100.0 * options.weights.own, noise_Nm,
       100.0 * options.weights.torque_uncertainty);
-  // The noise's own uncertainty is small beside the prior's: the normal distribution's quantile.
+  // The noise's own uncertainty is small beside the prior's, so that the normal distribution's quantile applies.
   constexpr int kManyDegreesOfFreedom = 100000;
   const double quantile = student_t(options.confidence, kManyDegreesOfFreedom);
   report_missing(judge(update, rules, judged_speeds(all.points), quantile, options.wanted), options.wanted);

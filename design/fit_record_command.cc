@@ -17,7 +17,7 @@ namespace strainwave {
 
 namespace {
 
-// An estimate is off by half to twice (control/joint/friction_estimate.h), an actuator by what fit --log takes for its own.
+// An estimate is off by half to twice (control/joint/friction_estimate.h). An actuator has the default of fit --log.
 constexpr double kEstimateDeviation = 0.5;
 constexpr double kNormal95 = 1.96;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwave-design fit --record: friction of a commissioned joint. What is measured at one temperature corrects the catalogue's friction of
-// its gear at all of them (design/friction/friction_update.h). Offline.
+// `strainwave-design fit --record` estimates the friction of a commissioned joint. Measurements at one temperature
+// correct the catalogue's friction of its gear at all temperatures (design/friction/friction_update.h). Offline.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct FitRecordOptions {
   std::string out;
 };
 
-/// The exit status; throws InputError.
+/// Returns the exit status. Throws InputError.
 ExitStatus fit_record(const FitRecordOptions& options);
 
 }  // namespace strainwave

@@ -23,7 +23,7 @@ namespace strainwave {
 
 namespace {
 
-// The reference case: the source's joint, which the catalogue begins with, and its weights. What is not given is the gear's.
+// The defaults are those of the joint of Zhao (2006), the first of the catalogue. Other values come from the gear.
 struct GainsOptions {
   std::string friction;
   std::string rules_side = "joint";
@@ -57,12 +57,12 @@ std::vector<std::string> gear_list() {
   return names;
 }
 
-/// The gear that is asked for, else that of the reference case.
+/// The requested gear, else that of the joint of Zhao (2006).
 const Gear& gear_of(const GainsOptions& options) {
   return *find_gear(options.gear.empty() ? catalogue_joint().gear : options.gear);
 }
 
-/// As given, else the gear's. Throws InputError when a gear has another ratio than the one given.
+/// The given ratio, else the gear's. Throws InputError if the requested gear has another ratio.
 double ratio_of(const GainsOptions& options) {
   const Gear& gear = gear_of(options);
   if (!options.gear.empty() && options.gear_ratio.value_or(gear.ratio) != gear.ratio)
@@ -87,10 +87,10 @@ struct RequestedJoint {
   FrictionRules rules;
   std::string note;
   std::optional<SpringRequest> spring;
-  double inertia_kgm2 = 0.0;  ///< that the gains are designed for
+  double inertia_kgm2 = 0.0;  ///< for which the gains are designed
 };
 
-// As given, else of the catalogue, which it says.
+// Takes the given friction, else the catalogue's, whose origin it prints.
 void take_friction(const GainsOptions& options, RequestedJoint& joint) {
   if (!options.friction.empty()) {
     joint.rules = read_friction_rules(options.friction, ratio_of(options),
@@ -106,7 +106,7 @@ void take_friction(const GainsOptions& options, RequestedJoint& joint) {
   std::printf("--friction %s\n", friction.origin.c_str());
 }
 
-// Says where it is from unless it is given at the joint. Throws InputError that asks for it.
+// The motor inertia. Prints its origin unless it is given at the joint. Throws InputError that asks for it.
 BoxRange motor_inertia_kgm2(const GainsOptions& options) {
   if (const auto given = given_motor_inertia(options.spring, "gains")) return *given;
   const Gear& gear = gear_of(options);
@@ -116,7 +116,7 @@ BoxRange motor_inertia_kgm2(const GainsOptions& options) {
   return {inertia.at_joint_kgm2, inertia.at_joint_kgm2};
 }
 
-// Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
+// Prints the values that come from the catalogue. Throws InputError that names the missing options.
 RequestedJoint read_joint(const GainsOptions& options) {
   RequestedJoint joint;
   take_friction(options, joint);
@@ -166,7 +166,7 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   return request;
 }
 
-// TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
+// Writes TABLE.json for one controller, or DIR/c1.json .. DIR/c4.json for all.
 ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
   const RequestedJoint joint = read_joint(options);
   TableRequest request = make_request(options, command, joint);

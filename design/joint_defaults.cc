@@ -13,10 +13,10 @@ namespace {
 
 constexpr const char* kFrictionFile = "data/tables/rhs17-6006-friction.json";
 
-// What a table says of such friction.
+// Note of a table with estimated friction.
 constexpr const char* kEstimatedFriction = "friction: estimate from the catalogue";
 
-// Where it is certified at once, for sizes 25 and 32, stiffer gains change little; size 14 ends at 6e-6.
+// Sizes 25 and 32 are certified at this weight; stiffer gains change little. The search for size 14 ends at 6e-6.
 constexpr double kStiffWeight = 1e-9;
 
 bool has_actuator(const Gear& gear) {
@@ -32,7 +32,7 @@ std::string actuator_origin() {
   return "of " + joint.model + ", the catalogue's actuator with " + joint.gear;
 }
 
-// The speeds of the memberships are the motor's as well.
+// The velocity memberships are speeds of the motor, so that they scale with the ratio.
 void scale_to(const Gear& gear, double ratios, FuzzyFriction& rules) {
   for (TemperatureRule& rule : rules.rules) rule.friction = estimate_friction(gear, rule.friction);
   VelocityMemberships& velocity = rules.velocity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwave-design: fit friction, design gains, verify and describe tables. Runs anywhere; nothing of it
-// runs on the robot.
+// strainwave-design fits friction, designs gains, verifies and describes tables. It runs on any computer. No
+// part of it runs on the robot.
 #include <CLI/CLI.hpp>
 
 #include "base/manual/command_line.h"

@@ -14,17 +14,17 @@ namespace strainwave {
 
 namespace {
 
-constexpr int kQuarters = 4;  // of a decade of the torque's weight
-// Beyond that of data/tables/csf-17-50-delays.json, the softest shipped gains, a link's swing is not damped. Its motor and heaviest link are
-// kSoftestInertia_kgm2; a lighter joint's torque counts as much more as it takes less of it.
+constexpr int kQuarters = 4;  // steps in a decade of the torque's weight
+// The weight of data/tables/csf-17-50-delays.json, the softest shipped gains; softer ones do not damp the link's oscillation. Motor
+// and heaviest link of that table have kSoftestInertia_kgm2. The limit of a lighter joint is higher by the square of the inertias' ratio.
 constexpr double kSoftestWeight = 1e-5;
 constexpr double kSoftestInertia_kgm2 = 0.389;
 constexpr int kNarrowings = 2;
-// Of the motor's inertia, to both sides: data sheets and identification are mostly within the first.
+// Widths of the range around one motor inertia. Data sheets and identification are mostly within the first.
 constexpr std::array kMotorShares{0.05, 0.02};
-constexpr int kSofterSteps = 8;  // of half a decade
-// Of a torque that acts two periods late the velocity of two readings is two and a half periods old. Of the family for links of 0.05 to 0.3
-// kg m2 behind a size 17 gear 1.5 periods are too few without damping, 2.5 too many for the stiffer gains.
+constexpr int kSofterSteps = 8;  // of half a decade each
+// With a torque that acts two periods late, the velocity of two readings is 2.5 periods old. For links of 0.05 to 0.3
+// kg m2 behind a size 17 gear, 1.5 periods are too few without damping. There, 2.5 are too many for the stiffer gains.
 constexpr double kLeadPeriods = 2.0;
 
 std::string range_text(const BoxRange& range) {
@@ -111,7 +111,7 @@ GainTable design_rigid(Controller controller, const TableRequest& request) {
 
 namespace {
 
-// The range that is given, or those around one number, the widest first.
+// The given range, or ranges around one number, the widest first.
 std::vector<BoxRange> motors_to_try(const BoxRange& given) {
   if (given.from != given.to) return {given};
   std::vector<BoxRange> motors;
@@ -137,7 +137,7 @@ SpringDesign design_on_spring(Controller controller, const TableRequest& request
       refusal = none.what();
     }
   }
-  // The lightest links are the hardest: a range is narrowed from their side.
+  // The lightest links are the hardest, so that the range is narrowed from their side.
   BoxRange& link = tried.link_inertia_kgm2;
   for (int i = 0; i < kNarrowings; ++i) {
     link.from = std::sqrt(link.from * link.to);

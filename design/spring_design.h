@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gains whose box is certified: for a rigid joint those that are asked for, for a gear that is a spring the most aggressive of a family.
-// Offline.
+// Designs gains whose box is certified. For a rigid joint these are the requested gains. For a gear with a
+// spring they are the most aggressive of a family. Offline.
 #pragma once
 
 #include <functional>
@@ -13,20 +13,20 @@ namespace strainwave {
 
 struct SpringDesign {
   GainTable table;   ///< with its box
-  std::string text;  ///< the weight that was found and what proves it, in lines
+  std::string text;  ///< lines with the weight that was found and its proof
 };
 
-/// design_table(), with its box unless the sampling is forward Euler. Throws NotAchieved where it is not certified, with the weights of
-/// softer gains that are.
+/// design_table() with a certified box, or without a box if the sampling is forward Euler. Throws NotAchieved
+/// if the box is not certified. The message names the weights of softer gains that are certified, if any.
 GainTable design_rigid(Controller controller, const TableRequest& request);
 
-/// What is tried now, in words.
+/// Receives a description of each attempt.
 using DesignProgress = std::function<void(const std::string&)>;
 
-/// Of gains over the torque's weight, from that of `request` to 1e-5, the first that are certified, to a quarter of a decade; on the motor's
-/// encoder with a lead where they are not without. A motor inertia of one number is certified within 5 % of it, or as far as gains are found.
-/// Throws InputError where no table can hold what is asked for. Throws NotAchieved
-/// with the last refusal where no gains are certified, and with a narrower range of links for which some are, if one was found.
+/// Raises the torque's weight from that of `request` to 1e-5, more for a light joint. Returns the first gains that are certified, to a
+/// quarter of a decade. With the encoder on the motor, it adds a lead if they are not certified without one. A motor inertia of one
+/// number is certified within 5 % of it, else within 2 %. Throws InputError if no table can hold the request. Throws NotAchieved with
+/// the last refusal if no gains are certified. The message names a narrower range of links if gains for one are certified.
 SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,
                               const SpringRequest& spring, const DesignProgress& progress);
 

@@ -24,7 +24,7 @@ BoxRange parse_range(const std::string& place, const std::string& key, const std
   return {from, to};
 }
 
-// "2..3kg@0.4m": masses of a point at this distance from the joint's axis; or inertias.
+// "2..3kg@0.4m": point masses at this distance from the joint's axis. Without kg@ the text is an inertia.
 BoxRange parse_load(const std::string& place, const std::string& key, const std::string& text) {
   if (text.find_first_of("kg@") == std::string::npos)
     return parse_range(place, key, text, kLeastInertia_kgm2);

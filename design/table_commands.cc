@@ -29,7 +29,7 @@ std::string gear_of(const VerifyOptions& options, const GainTable& table) {
   return options.gear.empty() ? std::string(table.plant.gear.view()) : options.gear;
 }
 
-// As given, of the table's box, else of the catalogue's actuator. Says which if it is not given.
+// The given inertia, else that of the table's box, else of the catalogue's actuator. Prints one that is not given.
 BoxRange motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
   if (const auto given = given_motor_inertia(options.spring, "verify")) return *given;
   const BoxRange& of_box = table.box.motor_inertia_kgm2;
@@ -43,7 +43,7 @@ BoxRange motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table
   return {inertia.at_joint_kgm2, inertia.at_joint_kgm2};
 }
 
-/// The spring that is asked for, if one is. Throws InputError.
+/// The requested spring, if any. Throws InputError.
 std::optional<SpringRequest> requested_spring(const VerifyOptions& options, const GainTable& table) {
   if (!options.spring.given()) {
     if (!options.gear.empty())
@@ -77,7 +77,7 @@ bool verify_exactly(const GainTable& table) {
 
 ExitStatus verify(const VerifyOptions& options) {
   const GainTable table = read_gain_table(options.path);
-  // Before anything is certified in words.
+  // Wrong options are refused before any verdict is printed.
   const std::optional<SpringRequest> spring = requested_spring(options, table);
   const BoxReport report = certify_box(table);
   bool certified = report.certified;

@@ -27,8 +27,8 @@ std::string str(const FixedString<N>& text) {
   return std::string(text.view());
 }
 
-// Whose spring may have any stiffness of the box at every instant: of cells that hold all of it, at every delay. From the heaviest link, or
-// one beyond, to the heaviest: none.
+// Links whose spring may have any stiffness of the box at every instant. For every delay, their cells hold
+// the whole range of stiffness. A range that begins at the heaviest link or above is empty.
 BoxRange links_with_any_stiffness(const CertifiedBox& box) {
   BoxRange links = box.link_inertia_kgm2;
   for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gain tables for people. Offline.
+// Gain tables as text for the user. Offline.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace strainwave {
 
-/// In a line, where the spring's stiffness may change: at any instant, or within a cell. Nothing of a rigid joint.
+/// One line that says whether the spring's stiffness may change at any instant or only within a cell. Empty for a rigid joint.
 std::string stiffness_text(const CertifiedBox& box);
 
-/// What the table is for, its rules, gains, and where it came from.
+/// Purpose, rules, gains and origin of the table.
 std::string description(const GainTable& table);
 
 }  // namespace strainwave

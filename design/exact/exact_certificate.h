@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The second checker of a gain table: the statement of docs/certificate.md in rational numbers. It shares no code with the checker of
-// control/table but the table itself, so that an error in one of them shows. Not real-time: up to a minute.
+// The second checker of a gain table, which proves the statement of docs/certificate.md in rational numbers. It shares no code
+// with the checker in control/table except the table itself, so that an error in either one shows. Not real-time: up to a minute.
 #pragma once
 
 #include <string>

@@ -13,10 +13,10 @@ namespace strainwave {
 
 namespace {
 
-// Stiffness, link inertia, damping, viscous friction, motor inertia.
+// The directions of a part: stiffness, link inertia, damping, viscous friction, motor inertia.
 constexpr std::size_t kDirections = 5;
 constexpr std::size_t kCorners = std::size_t{1} << kDirections;
-// More than the first checker has: what is rounded here, by up to 1 %, then decides nothing.
+// More halvings than the first checker has, so that the rounding of l and s by up to 1.6 % does not decide a proof.
 constexpr int kMostExactHalvings = kMostHalvings + 4;
 
 using Joint = std::array<double, kDirections>;
@@ -46,7 +46,7 @@ void set_row(RationalMatrix& matrix, std::size_t row, const RationalMatrix& entr
   for (std::size_t j = 0; j < matrix.columns(); ++j) matrix(row, j) = entries(0, j);
 }
 
-/// h [Ac Bc; 0 0] with the states [e, w, s, v] and u; of a rigid joint, which has no link, [e, w] and u.
+/// h [Ac Bc; 0 0] with the states [e, w, s, v] and u. A rigid joint has no link, only [e, w] and u.
 RationalMatrix generator(const Joint& joint, const mpq_class& h) {
   const mpq_class motor_inertia_kgm2 = joint[4];
   if (joint[1] == 0.0) {
@@ -75,7 +75,7 @@ RationalMatrix generator(const Joint& joint, const mpq_class& h) {
   return h * M;
 }
 
-/// What one gain makes of the state, the plant's own rows left out.
+/// The feedback of one gain, without the plant's own rows.
 struct Feedback {
   RationalMatrix acting;  ///< the torque that acts on the motor, as a row
   RationalMatrix memory;  ///< the next state, zeros in the plant's rows
@@ -107,7 +107,7 @@ Feedback feedback(const GainRow& F, const GainTable& table, int delay) {
   return result;
 }
 
-/// Without its first `left_out` rows and columns.
+/// `matrix` without its first `left_out` rows and columns.
 RationalMatrix trimmed(const RationalMatrix& matrix, std::size_t left_out) {
   RationalMatrix result(matrix.rows() - left_out, matrix.columns() - left_out);
   for (std::size_t i = 0; i < result.rows(); ++i)
@@ -115,7 +115,7 @@ RationalMatrix trimmed(const RationalMatrix& matrix, std::size_t left_out) {
   return result;
 }
 
-/// The loop around `sampled` = [A B; 0 1].
+/// The closed loop of `sampled` = [A B; 0 1] and the feedback `by`.
 Enclosure closed(const Enclosure& sampled, const Feedback& by) {
   const std::size_t n = by.memory.columns();
   const std::size_t plant = sampled.value.rows() - 1;
@@ -172,7 +172,7 @@ class CellProof {
   }
 
  private:
-  // Near the free swing's frequency velocities weigh as much as positions, and the stiffness as much as the torque.
+  // With these scales, at the natural frequency, velocities weigh as much as positions, and the stiffness as much as the torque.
   std::vector<mpq_class> scale(const Part& part) const {
     if (part[1].to == 0.0) return {1, 1, part[4].from};
     const double K = part[0].to;
@@ -180,7 +180,7 @@ class CellProof {
     return {1, swing, 1, swing, short_number_near(K)};
   }
 
-  /// E of a part whose corners have these generators. Sets the direction in which most of it lies.
+  /// E of a part whose corners have these generators. Sets widest_ to the direction that contributes most.
   RationalMatrix interpolation(const std::array<RationalMatrix, kCorners>& generators, const Part& part) {
     const std::size_t n = generators[0].rows();
     RationalMatrix size(n, n);
@@ -208,7 +208,7 @@ class CellProof {
     return sum;
   }
 
-  /// Whether V falls at the corners, but not within E of them. Where it does not fall at a corner, the proof ends.
+  /// True if V falls at the corners but not within E of them. Refuses if V does not fall at a corner.
   bool is_lost_between(const Part& part) {
     std::array<RationalMatrix, kCorners> generators;
     for (std::size_t c = 0; c < kCorners; ++c) generators[c] = generator(corner_of(part, c), period_s_);
@@ -241,7 +241,7 @@ class CellProof {
     report_.refusal = "box, delay " + std::to_string(delay_periods_) + ": " + why;
   }
 
-  std::size_t left_out_ = 0;  // the integral, which is no state without an integrator
+  std::size_t left_out_ = 0;  // 1 without an integrator: the integral is then no state
   mpq_class period_s_;
   int delay_periods_;
   std::vector<Feedback> feedbacks_;  // of every gain

@@ -9,7 +9,7 @@ namespace strainwave {
 
 namespace {
 
-// Of a binade. Powers of two lose proofs near the edge: strainwave-design verify --exact.
+// Fractions are rounded to 1 / kParts. Powers of two alone lose proofs near the limit (verify --exact).
 constexpr double kParts = 64.0;
 
 Eigen::MatrixXd approximate(const RationalMatrix& a) {
@@ -37,7 +37,7 @@ bool falls(const RationalMatrix& allowed, const RationalMatrix& P, const Enclosu
   const RationalMatrix PH = P * H;
   RationalMatrix fall = allowed - factor * (transpose(H) * PH);
 
-  // How far a state, and a row of P H, reach where the fall is 1. Only the choice of l follows it.
+  // The largest value of each state, and of each row of P H, where the decrease is 1. Only the choice of l uses it.
   const Eigen::LLT<Eigen::MatrixXd> factors(approximate(fall));
   const auto N = static_cast<Eigen::Index>(n);
   const Eigen::MatrixXd rows = factors.matrixL().solve(Eigen::MatrixXd(approximate(PH).transpose()));

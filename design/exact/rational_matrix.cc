@@ -10,9 +10,9 @@ namespace {
 
 using IntegerMatrix = ExactMatrix<mpz_class>;
 
-// What is rounded is rounded to a multiple of 2^-kBits, and the series goes on until it leaves out less.
+// Numbers are rounded to multiples of 2^-kBits. The series continues until its rest is at most eight of these.
 constexpr mp_bitcnt_t kBits = 128;
-// More terms than this norm asks for are more than any joint at a useful period.
+// Larger norms, which need more terms, are refused. No joint at a useful period has one.
 constexpr int kMostNorm = 32;
 
 mpq_class unit() {
@@ -29,7 +29,7 @@ mpq_class rounded_down(const mpz_class& a, const mpz_class& b) {
   return result;
 }
 
-/// More than `value`.
+/// A multiple of 2^-kBits above `value`.
 mpq_class rounded_up(const mpq_class& value) {
   return rounded_down(value.get_num(), value.get_den()) + unit();
 }
@@ -61,7 +61,7 @@ mpq_class norm(const RationalMatrix& a, const std::vector<mpq_class>& scale) {
   return rounded_up(largest);
 }
 
-/// The number of the last term of exp(beta) that counts, and more than the sum of all after it.
+/// The number of the last summed term of exp(beta), and a bound of the sum of all later terms.
 struct Tail {
   unsigned long last = 0;
   mpq_class sum;
@@ -88,7 +88,7 @@ RationalMatrix larger(const RationalMatrix& a, const RationalMatrix& b) {
   return zipped(a, b, [](const mpq_class& x, const mpq_class& y) { return std::max(x, y); });
 }
 
-// Bareiss: elimination without fractions. The pivots are the leading minors, times a positive number.
+// Bareiss elimination avoids fractions. Its pivots are the leading minors times a positive number.
 bool is_positive_definite(const RationalMatrix& symmetric) {
   const std::size_t n = symmetric.rows();
   IntegerMatrix a = numerators(symmetric, common_denominator(symmetric));
@@ -105,7 +105,7 @@ bool is_positive_definite(const RationalMatrix& symmetric) {
   return true;
 }
 
-// Horner's rule with Z / q = I + M (Z / q) / k, Z of integers.
+// Horner's rule Z / q = I + M (Z / q) / k, with a matrix of integers Z.
 Enclosure exponential(const RationalMatrix& M, const std::vector<mpq_class>& scale) {
   const std::size_t n = M.rows();
   const Tail tail = tail_of_series(norm(M, scale));

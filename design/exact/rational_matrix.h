@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrices of rational numbers, without any rounding but where a function says so. Not real-time: a product takes microseconds an entry.
+// Matrices of rational numbers. Only functions that say so round. Not real-time: a product takes microseconds per entry.
 #pragma once
 
 #include <gmpxx.h>
@@ -13,7 +13,7 @@ template <typename Number>
 class ExactMatrix {
  public:
   ExactMatrix() = default;
-  /// Zeros.
+  /// A matrix of zeros.
   ExactMatrix(std::size_t rows, std::size_t columns)
       : rows_(rows), columns_(columns), entries_(rows * columns) {}
   static ExactMatrix identity(std::size_t size, const Number& diagonal = 1) {
@@ -82,25 +82,25 @@ ExactMatrix<Number> transpose(const ExactMatrix<Number>& a) {
 
 using RationalMatrix = ExactMatrix<mpq_class>;
 
-/// Entry by entry.
+/// The absolute value of each entry, and the larger of the two entries at each place.
 RationalMatrix magnitude(const RationalMatrix& a);
 RationalMatrix larger(const RationalMatrix& a, const RationalMatrix& b);
 
 /// Whether the symmetric matrix is positive definite: every pivot of its elimination is above 0. Exact.
 bool is_positive_definite(const RationalMatrix& symmetric);
 
-/// Any matrix within `radius` of `value`, entry by entry.
+/// All matrices within `radius` of `value`, entry by entry.
 struct Enclosure {
   RationalMatrix value;
   RationalMatrix radius;  ///< >= 0
 };
 
-/// exp(M), with what the series and the rounding to 2^-128 leave out. Any `scale` > 0 proves, one number for each row: with the norm
-/// beta = max_i sum_j |M_ij| scale_j / scale_i, the entries of M^k are at most beta^k scale_i / scale_j. The number of terms follows beta. Throws std::domain_error where beta is above 32.
+/// Encloses exp(M): the radius covers the rest of the series and the rounding to 2^-128. Any `scale` > 0, one number per row, is valid.
+/// With beta = max_i sum_j |M_ij| scale_j / scale_i, |M^k|_ij <= beta^k scale_i / scale_j. beta sets the number of terms; above 32: std::domain_error.
 Enclosure exponential(const RationalMatrix& M, const std::vector<mpq_class>& scale);
 
-/// More than max |d2/dt2 exp(A + t N)| / 8 over all A + t N that are at most `size`, entry by entry; `change` = |N|. That is a quarter of the
-/// block in the corner of exp [S N 0; 0 S N; 0 0 S], as comparing the series shows.
+/// A bound, entry by entry, of max |d2/dt2 exp(A + t N)| / 8 over all |A + t N| <= `size`, with |N| = `change`. It
+/// is a quarter of the upper right block of exp [S N 0; 0 S N; 0 0 S], as a comparison of the series shows.
 RationalMatrix interpolation_bound(const RationalMatrix& size, const RationalMatrix& change,
                                    const std::vector<mpq_class>& scale);
 

@@ -30,8 +30,8 @@ Eigen::VectorXd free_gradient(const DescentPoint& point) {
   return gradient;
 }
 
-// The minimum of the damped quadratic model, within the box as seen from x: components that would leave it at
-// once are held.
+// The step to the minimum of the damped quadratic model. Components at a bound stay there if the descent
+// would leave the box.
 Eigen::VectorXd model_step(const DescentPoint& point, const Eigen::VectorXd& gradient) {
   const Index n = gradient.size();
   Eigen::MatrixXd B = point.sample.curvature;
@@ -49,7 +49,7 @@ Eigen::VectorXd model_step(const DescentPoint& point, const Eigen::VectorXd& gra
   return move;
 }
 
-// Damped BFGS on the curvature itself: stays positive definite for every s, y.
+// Damped BFGS update of the curvature B, which stays positive definite for every s and y.
 void learn(Eigen::MatrixXd& B, const Eigen::VectorXd& s, const Eigen::VectorXd& y) {
   const Eigen::VectorXd Bs = B * s;
   const double sBs = s.dot(Bs);

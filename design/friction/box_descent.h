@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Local descent in the unit box: one damped Newton step at a time (Levenberg-Marquardt). The curvature is the
-// cost's own where it knows one (Gauss-Newton), otherwise it is learned from the gradients met on the way
-// (damped BFGS). Offline. Source: Nocedal and Wright, "Numerical Optimization", sections 10.3, 16.7 and 18.3.
+// Local descent in the unit box by one damped Newton step at a time (Levenberg-Marquardt). The cost may
+// supply its curvature (Gauss-Newton); otherwise the descent learns it from successive gradients (damped
+// BFGS). Offline. Source: Nocedal and Wright, "Numerical Optimization", sections 10.3, 16.7 and 18.3.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct CostSample {
 /// Must be callable from several threads at once.
 using GradientCost = std::function<void(const Eigen::VectorXd& x, CostSample& sample)>;
 
-/// A point of the unit box that remembers what it learned on its way.
+/// A point of the unit box with the state of its descent.
 struct DescentPoint {
   Eigen::VectorXd x;
   CostSample sample;               ///< at x; curvature always filled
@@ -30,8 +30,8 @@ struct DescentPoint {
 /// Evaluates `x` (inside the unit box).
 DescentPoint start_descent(const GradientCost& cost, const Eigen::VectorXd& x);
 
-/// One step: the cost never rises. Returns the number of evaluations. Converged: the quadratic model promises
-/// less than `tolerance` times the cost, or no damping finds a lower cost.
+/// Takes one step, which never raises the cost, and returns the number of evaluations. A point has converged
+/// if its gradient predicts a gain below `tolerance` times the cost, or no damping lowers the cost.
 int descend(const GradientCost& cost, DescentPoint& point, double tolerance);
 
 /// Norm of the gradient without the components that push against the box.

@@ -19,16 +19,16 @@ namespace strainwave {
 
 namespace {
 
-// Beyond these no gear of this kind exists; they catch wrong units.
+// No strain-wave gear exceeds these limits. They detect wrong units.
 constexpr double kMinTemperature_C = -273.15;
 constexpr double kMaxTemperature_C = 1000.0;
 constexpr double kMaxTorque_Ncm = 1e7;
 constexpr double kMaxSpeed_rpm = 1e6;
 // Manufacturers print the starting torque at room temperature.
 constexpr double kRoom_C = 25.0;
-// Static above Coulomb friction (Zhao 2006, section 2.3).
+// Static minus Coulomb friction (Zhao 2006, section 2.3).
 constexpr double kSourceExcess_Ncm = 1.6;
-// A line through torques in proportion to speed ends at zero only up to rounding.
+// If torque is in proportion to speed, the intercept of the line is zero only up to rounding.
 constexpr double kRounding_Ncm = 1e-9;
 
 const std::vector<double> kSourceSpeeds_rpm{500.0, 1000.0, 2000.0, 3500.0};
@@ -70,7 +70,7 @@ Line least_squares_line(const std::vector<double>& x, const std::vector<double>&
   return {mean_y - slope * mean_x, slope};
 }
 
-/// Coulomb friction at room temperature, between the rows; that of the nearest row where none is as warm or cold.
+/// Coulomb friction at room temperature, interpolated between rows, or of the nearest row outside of their range.
 double coulomb_at_room_Ncm(const std::vector<FrictionPoint>& points) {
   const auto above =
       std::ranges::find_if(points, [](const FrictionPoint& point) { return point.temperature_C >= kRoom_C; });
@@ -81,7 +81,7 @@ double coulomb_at_room_Ncm(const std::vector<FrictionPoint>& points) {
   return std::lerp(below->motor_coulomb_Ncm, above->motor_coulomb_Ncm, share);
 }
 
-/// The one place where a starting torque becomes static friction.
+/// Sets static friction from the starting torque. No other code converts it.
 void set_static_friction(FrictionData& data, const CsvTable& csv, std::optional<std::size_t> starting_column,
                          std::optional<double> starting_torque_Ncm) {
   data.has_starting_torque = starting_column.has_value();
@@ -154,7 +154,7 @@ struct Range {
   const char* allowed;
 };
 
-// Friction is friction: each in its range, static at least Coulomb.
+// Checks that each parameter is in its range, and that static friction is at least Coulomb friction.
 void check_point(const FrictionPoint& point, const std::string& where) {
   const std::array<Range, 4> ranges{{
       {"temperature_C", point.temperature_C, kMinTemperature_C, kMaxTemperature_C, "from -273.15 to 1000"},
@@ -174,7 +174,7 @@ void check_point(const FrictionPoint& point, const std::string& where) {
   }
 }
 
-/// At one temperature it may be a wrong cell, which the fit finds as an outlier; at most of them it is the file.
+/// Refuses a file whose torque falls with speed at most temperatures. The fit reports single ones as outliers.
 void require_rising(const FrictionData& data, const std::string& source) {
   const auto falling = std::ranges::count_if(data.points, [](const FrictionPoint& point) {
     return point.motor_viscous_Ncm_per_rpm < -kRounding_Ncm;

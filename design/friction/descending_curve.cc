@@ -12,22 +12,22 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index kGrid = 1001;  // of temperatures: 0.05 degC over the source's range
+constexpr Index kGrid = 1001;  // temperatures: 0.05 degC apart over the range of Zhao (2006)
 constexpr double kRidge = 1e-10;
-constexpr double kTolerance = 1e-7;  // of the largest parameter
+constexpr double kTolerance = 1e-7;  // relative to the largest parameter
 constexpr int kSteps = 400;
 
 Eigen::VectorXd grid(double min_C, double max_C) {
   return Eigen::VectorXd::LinSpaced(kGrid, min_C, max_C);
 }
 
-/// C = U D: sums from the warm end, so that D >= 0 is C >= 0 that falls from rule to rule.
+/// U of C = U D, sums from the warm end. D >= 0 means that C >= 0 and falls from rule to rule.
 Eigen::MatrixXd sums_from_the_warm_end(Index rules) {
   return Eigen::MatrixXd(Eigen::MatrixXd::Ones(rules, rules).triangularView<Eigen::Upper>());
 }
 
-/// The quadratic program min 1/2 x'Hx - g'x with rows r'x >= 0 added one by one; x = [D of static, Coulomb, viscous friction], each in
-/// the unit of its own metric.
+/// The quadratic program min 1/2 x'Hx - g'x, to which rows r'x >= 0 are added one by one. x = [D of static,
+/// Coulomb, viscous friction], each in the unit of its own metric.
 class GrowingProgram {
  public:
   GrowingProgram(const Eigen::MatrixXd& H, const Eigen::VectorXd& g)
@@ -35,7 +35,7 @@ class GrowingProgram {
 
   const Eigen::VectorXd& x() const { return x_; }
 
-  /// False: there is no room for it.
+  /// Returns false if there is no room for the row.
   bool add(const Eigen::VectorXd& row) {
     if (static_cast<Index>(rows_.size()) == kMaxNonnegativeUnknowns && !forget_idle()) return false;
     rows_.push_back(row);
@@ -75,7 +75,7 @@ class GrowingProgram {
   Eigen::VectorXd multipliers_;
 };
 
-/// The row that `x` violates most for parameter `p`, of `allowed` times the block of p; nothing when it violates none.
+/// The row of `allowed` that the block of parameter `p` in `x` violates most, or nothing if it violates none.
 std::optional<Eigen::VectorXd> most_violated(const Eigen::MatrixXd& allowed, const Eigen::VectorXd& x,
                                              Index p, double tolerance) {
   const Index m = allowed.cols();

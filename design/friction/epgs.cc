@@ -82,7 +82,7 @@ class Search {
       sample.gradient = sample.gradient.cwiseProduct(range_);
       if (sample.curvature.size() > 0)
         sample.curvature = range_.asDiagonal() * sample.curvature * range_.asDiagonal();
-      // A cost that is not a number is no cost: such a point is never selected.
+      // A point whose cost is not finite gets the largest cost, so that others are selected first.
       if (!std::isfinite(sample.value) || !sample.gradient.allFinite()) {
         sample.value = std::numeric_limits<double>::max();
         sample.gradient.setZero(x.size());
@@ -188,7 +188,7 @@ class Search {
     return true;
   }
 
-  // Children of the selected and the rest, then fresh points; the selected stay.
+  // The selected points stay. Their children with the rest, then fresh points complete the population.
   void breed() {
     std::vector<Individual> selected;
     std::vector<Individual> rest;
@@ -210,7 +210,7 @@ class Search {
       fresh_.push_back(random_point());
   }
 
-  // The best point to the end of its valley.
+  // Descends from the best point until it converges.
   void finish() {
     constexpr int kStepLimit = 500;
     const GradientCost cost = scaled_cost();

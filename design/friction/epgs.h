@@ -2,7 +2,7 @@
 // EPGS, evolutionary parallel gradient search: the minimum of a cost with a gradient over a box. Offline.
 // Source: Zhao (2006), section 4.1.
 //
-// A population X of P points; f the cost; the promise of a point (steep ones have far to fall) is
+// X is a population of P points and f the cost. A steep slope may lead far down, so that the promise of a point is
 //   g(X) = f(X) - slope_weight |grad f(X)|.
 // Each generation:
 //   1. evaluate; stop on the generation limit, on no improvement, or within tolerance of a known optimum;
@@ -17,10 +17,10 @@
 // Where this departs from Zhao (2006), and why:
 // - a gradient step is a damped Newton step in the unit box (box_descent.h) instead of a fixed learning rate:
 //   costs with long curved valleys, such as that of the fuzzy memberships, otherwise take thousands of
-//   generations. A point takes up to `steps` of them in a generation and rests once it has converged;
+//   generations. A point takes up to `steps` steps in a generation and stops once it has converged;
 // - variables are scaled to [0, 1] (the ranges differ by up to 1e4);
-// - points that have come together count once: a copy gives up its place to a fresh point;
-// - each variable of a child mutates on its own.
+// - points that coincide count once: a fresh point takes the place of a copy;
+// - each variable of a child mutates independently.
 #pragma once
 
 #include <cstdint>
@@ -41,11 +41,11 @@ struct EpgsOptions {
   int steps = 20;                 ///< gradient steps per selected point and generation
   /// A point has converged when a step promises less than this part of its cost.
   double step_tolerance = 1e-6;
-  /// The best point of all takes steps until one promises less than this part.
+  /// At the end, the best point takes steps until one promises less than this part.
   double final_tolerance = 1e-12;
   int generation_limit = 250;
   int patience = 1000000;         ///< generations without improvement before stopping
-  double improvement = 1e-6;      ///< relative, that counts as one
+  double improvement = 1e-6;      ///< least relative decrease that counts as one
   double known_optimum = -1e300;  ///< stop within optimum_tolerance of it
   double optimum_tolerance = 0.0;
   std::uint64_t seed = 1;
@@ -65,7 +65,7 @@ struct EpgsResult {
 };
 
 /// `cost` takes points of the box [lower, upper] and gives derivatives over the same variables. Throws
-/// InputError when the box is empty or the options make no population.
+/// InputError if the box is empty or the options give no valid population.
 EpgsResult minimise_epgs(const GradientCost& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                          const EpgsOptions& options);
 

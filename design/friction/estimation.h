@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Where memberships may lie.
+/// Limits of the centres and widths of memberships.
 struct MembershipBox {
   double center_min_C = -15.0;
   double center_max_C = 45.0;

@@ -34,7 +34,7 @@ FitProblem without_row(const FitProblem& problem, Index row) {
 
 namespace {
 
-/// Temperatures of a problem that are taken out one after the other.
+/// Removes the temperatures of a problem one after the other.
 class Removal {
  public:
   Removal(const FitProblem& problem, double low_C, double high_C)
@@ -46,7 +46,7 @@ class Removal {
     cost_ = law_of(kept_).cost;
   }
 
-  /// Takes out the temperature without which the law fits the others best. How much better, as a factor.
+  /// Removes the temperature without which the law fits the others best. Returns the factor by which the cost falls.
   double take_worst() {
     const double before = cost_;
     cost_ = std::numeric_limits<double>::infinity();
@@ -60,12 +60,12 @@ class Removal {
     taken_.push_back(rows_[static_cast<std::size_t>(worst)]);
     rows_.erase(rows_.begin() + worst);
     kept_ = without_row(kept_, worst);
-    // What fits to the last digit has no outliers, only rounding.
+    // A fit that is exact up to rounding has no outliers.
     return before > 1e-9 * metric_cost(kept_.targets.parameters, kept_.metric) ? before / cost_ : 1.0;
   }
 
   Index size() const { return static_cast<Index>(rows_.size()); }
-  /// Rows of the problem, in the order in which they were taken out.
+  /// Rows of the problem, in the order of their removal.
   const std::vector<Index>& taken() const { return taken_; }
   ExponentialFit law_of(const FitProblem& problem) const { return fit_exponential(problem, low_C_, high_C_); }
 
@@ -90,7 +90,7 @@ std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, doub
   Removal removal(problem, low_C, high_C);
   const auto most = static_cast<std::size_t>(removal.size() / 4);
   std::size_t suspects = 0;
-  // Several that pull the law the same way hide each other: only without the last of them it fits.
+  // Outliers that pull the law the same way mask each other: it fits only without the last of them.
   while (removal.size() > kLeastKept && removal.taken().size() < std::min(most, suspects + kHidingOutliers))
     if (removal.take_worst() > kOutlierFactor) suspects = removal.taken().size();
   const std::vector<Index> taken(removal.taken().begin(),
@@ -103,7 +103,7 @@ std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, doub
     std::vector<Index> others = taken;
     std::erase(others, row);
     const double cost = removal.law_of(without_rows(problem, others)).cost;
-    if (!(cost > kOutlierFactor * sound.cost)) continue;  // it was taken out on the way to one that hid
+    if (!(cost > kOutlierFactor * sound.cost)) continue;  // sound, but removed before a masked outlier
     outliers.push_back({row, cost, sound.cost,
                         problem.targets.parameters.row(row) -
                             predict(sound, problem.targets.temperature_C.segment(row, 1)).row(0)});

@@ -18,12 +18,12 @@ namespace strainwave {
 
 namespace {
 
-// Temperatures of the source's catalogue, Zhao (2006), Table 1.
+// Temperature range of the catalogue in Zhao (2006), Table 1.
 constexpr double kSourceTemperatureMin_C = -10.0;
 constexpr double kSourceTemperatureMax_C = 40.0;
 
 FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide side) {
-  // A joint-side table is a motor-side one with ratio 1.
+  // Values at the joint side convert like those at the motor side with ratio 1.
   const double ratio = side == GearSide::kMotor ? gear_ratio : 1.0;
   const std::vector<std::string> columns{"center_C", "width_C", "static_Ncm", "coulomb_Ncm",
                                          "viscous_Ncm_per_rpm"};

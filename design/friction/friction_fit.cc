@@ -162,7 +162,7 @@ FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double tempe
   FuzzyFriction friction;
   friction.rule_count = static_cast<std::int32_t>(fit.center_C.size());
   for (Index i = 0; i < fit.center_C.size(); ++i) {
-    // Rules may meet in one centre; a table wants them ascending, and one unit in the last place changes nothing.
+    // Rules may share a centre, but a table requires ascending ones. One unit in the last place is negligible.
     double center_C = fit.center_C(i);
     if (i > 0)
       center_C =

@@ -20,7 +20,7 @@ struct ExponentialFit {
   Eigen::RowVector3d p0, p1;  ///< static, Coulomb, viscous
   double cost = 0.0;
   double gradient = 0.0;   ///< derivative of the cost over decay_C
-  double curvature = 0.0;  ///< Gauss-Newton's approximation of the second one
+  double curvature = 0.0;  ///< Gauss-Newton's approximation of the second derivative
 };
 
 /// Rules mu_i = exp(-((T - center_i)/width_i)^2), centres ascending, and their parameters.
@@ -28,20 +28,20 @@ struct FuzzyFit {
   Eigen::VectorXd center_C, width_C;
   Eigen::MatrixX3d consequents;  ///< one row per rule: static, Coulomb, viscous
   double cost = 0.0;
-  /// Derivative of the cost, and Gauss-Newton's approximation of the second one, over [centres, widths] in
-  /// the order of the arguments.
+  /// Derivative of the cost, and Gauss-Newton's approximation of the second derivative, over [centres,
+  /// widths] in the order of the arguments.
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature;
 };
 
-/// What both fits need to know.
+/// Input of both fits.
 struct FitProblem {
   FitTargets targets;
   Eigen::Matrix3d metric = Eigen::Matrix3d::Identity();
   bool physical = true;  ///< parameters non-negative and not increasing with temperature
 };
 
-/// Normalised memberships, n x m, of temperatures in rules; in the log domain, so that nothing becomes 0/0 far from every centre.
+/// Normalised memberships of n temperatures in m rules, n x m. The log domain avoids 0/0 far from every centre.
 Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, const Eigen::VectorXd& center_C,
                                        const Eigen::VectorXd& width_C);
 
@@ -56,7 +56,7 @@ FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& cente
                          const Eigen::VectorXd& width_C);
 
 /// Fixed memberships for plain least squares, for friction that falls steeply in the cold and levels off.
-/// From one centre to the next the gap grows by 1.6, from min to max. A width is 0.8 of the geometric mean of
+/// From min to max, the gap between centres grows by a factor of 1.6. A width is 0.8 of the geometric mean of
 /// the gaps beside it. count >= 2.
 struct Memberships {
   Eigen::VectorXd center_C, width_C;

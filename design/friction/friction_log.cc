@@ -17,7 +17,7 @@ namespace strainwave {
 
 namespace {
 
-/// What a log holds of one joint, before it is known to be enough.
+/// Contents of a log for one joint, before require_enough() checks them.
 struct Contents {
   std::vector<state_v1> states;
   std::optional<limits_v1> limits;

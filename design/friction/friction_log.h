@@ -18,8 +18,8 @@ struct FrictionLog {
   std::vector<MotionSample> samples;
 };
 
-/// The states and limits of `joint`, or of the only joint in the log when it is empty. Throws InputError: no
-/// event log, no or several joints, no limits, several sessions of the daemon, messages of another version.
+/// The states and limits of `joint`, or of the only joint in the log if `joint` is empty. Throws InputError for no
+/// event log, no or several joints, no limits, several sessions of the daemon, or messages of another version.
 FrictionLog read_friction_log(const std::filesystem::path& file, const std::string& joint);
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a fit of friction parameters minimises: 1/2 sum over temperatures of d' M d, d = the errors of
-// (static, Coulomb, viscous) friction at the motor side in N.cm, N.cm, N.cm/RPM. Offline.
+// The cost of a friction fit: 1/2 sum over temperatures of d' M d. d = the errors of (static, Coulomb,
+// viscous) friction at the motor side in N.cm, N.cm, N.cm/RPM. Offline.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@
 namespace strainwave {
 
 enum class FitWeighting {
-  /// M = I, Zhao (4-5). Viscous friction is 1e-3 of the others in these units and practically does not count.
+  /// M = I, Zhao (2006), (4-5). Viscous friction is 1e-3 of the others in these units and hardly counts.
   kSource,
-  /// The error of the friction torque itself: that of static friction squared, plus the mean over the
-  /// catalogue's speeds s of
-  /// (Coulomb error + s * viscous error)^2. Unit N.cm^2, as in Zhao (2006), but every parameter counts as it is felt.
+  /// The squared error of the friction torque: that of static friction, plus the mean of (Coulomb error + s *
+  /// viscous error)^2 over the catalogue's speeds s. Unit (N.cm)^2, as in Zhao (2006), but every parameter
+  /// counts by its effect on the torque.
   kTorque,
 };
 

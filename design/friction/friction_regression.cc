@@ -16,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-// Columns have been scaled to length 1: beyond this condition a parameter is not determined by the speeds.
+// Above this condition number of the columns, scaled to length 1, the speeds do not determine a parameter.
 constexpr double kWorstCondition = 1e4;
 // Below the resolution of any torque: (1e-9 N.m)^2.
 constexpr double kLeastVariance_N2m2 = 1e-18;
@@ -39,7 +39,7 @@ Eigen::RowVector3d friction_row(const StribeckShape& shape, double speed_rad_s) 
 double ripple_Nm(const StribeckShape& shape, double static_less_coulomb_Nm, const SteadyPoint& point) {
   const double delta = shape.exponent;
   const double power = std::pow(point.speed_rad_s / shape.velocity_rad_s, delta);
-  // s' = -s delta power / w, and once more.
+  // Applying s' = -s delta power / w twice gives s''.
   const double curvature = std::exp(-power) * delta * power * (delta * power - delta + 1.0) /
                            (point.speed_rad_s * point.speed_rad_s);
   return 0.5 * std::abs(curvature * static_less_coulomb_Nm) * point.speed_deviation_rad_s *
@@ -61,7 +61,7 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
   }
   const Eigen::Vector3d scale = X.colwise().norm().transpose();
   const Eigen::MatrixX3d scaled = X * scale.cwiseInverse().asDiagonal();
-  // Squares of the singular values, rising.
+  // Squares of the singular values, ascending.
   const Eigen::Matrix3d gram = scaled.transpose() * scaled;
   const Eigen::Vector3d squares =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
@@ -84,7 +84,7 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
     const double speed_Nm = ripple_Nm(shape, plain(0), points[static_cast<std::size_t>(i)]);
     variance(i) = noise_squared + torque_Nm * torque_Nm + speed_Nm * speed_Nm;
   }
-  // Points without any error of their own determine themselves: all weigh the same.
+  // A floor keeps the variances above 0. Points without any error then all weigh the same.
   const double least = std::max(kLeastVariance_N2m2, variance.minCoeff());
   Eigen::MatrixXd errors = variance.cwiseMax(least).asDiagonal();
   const Eigen::VectorXd common_Nm = torque_uncertainty * (X * plain);

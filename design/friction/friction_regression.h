@@ -7,9 +7,9 @@
 //   S = diag(noise^2 + (torque_uncertainty F_i)^2 + ripple_i^2) + torque_uncertainty^2 F F'
 //   generalised least squares; covariance (X'S^-1 X)^-1; interval by Student's t with n - 3
 //
-// The residuals alone do not say how far static friction is known: often a single slow point determines it, which the
-// fit then meets exactly. What that point may be off by stands in S, and so does a torque constant that is off for all points. The Stribeck
-// velocity is taken as known: a joint with another one has static friction outside of its interval.
+// The residuals alone do not show how well static friction is known: often a single slow point determines it, and the fit meets
+// that point exactly. S therefore contains the possible error of that point, and that of a torque constant that is wrong for all
+// points. The Stribeck velocity counts as known. If a joint has another one, its static friction lies outside of the interval.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ namespace strainwave {
 /// Row of the model at one speed: factors of (Fs - Fc, Fc, Fv).
 Eigen::RowVector3d friction_row(const StribeckShape& shape, double speed_rad_s);
 
-/// By how much the mean torque of a run may differ from the friction at its mean speed because the speed ripples,
-/// 1/2 |s''(w)| (Fs - Fc) deviation^2, in N.m.
+/// Possible difference between the mean torque of a run and the friction at its mean speed, due to ripple of
+/// the speed: 1/2 |s''(w)| (Fs - Fc) deviation^2, in N.m.
 double ripple_Nm(const StribeckShape& shape, double static_less_coulomb_Nm, const SteadyPoint& point);
 
 /// A value and the half width of its interval.
@@ -41,14 +41,14 @@ struct FrictionRegression {
   int degrees_of_freedom = 0;
 };
 
-/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. `torque_uncertainty` >= 0: standard
-/// deviation of a torque, relative. Throws InputError when they do not determine the three parameters, saying which
-/// speeds are missing.
+/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. `torque_uncertainty`
+/// >= 0: relative standard deviation of a torque. Throws InputError if they do not determine the three
+/// parameters, with the speeds that are missing.
 inline constexpr int kLeastRegressionPoints = 4;
 FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape,
                                     double confidence, double torque_uncertainty);
 
-/// The points in groups of one temperature each: sorted, a gap of more than `gap_C` begins a new group.
+/// Sorts the points by temperature and groups them. A gap of more than `gap_C` begins a new group.
 std::vector<std::vector<SteadyPoint>> group_by_temperature(std::vector<SteadyPoint> points, double gap_C);
 
 }  // namespace strainwave

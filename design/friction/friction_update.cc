@@ -13,9 +13,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Friction whose prior is 0 may still turn out to be some: this share of the largest over temperature.
+// Friction with a prior of 0 may still be positive. Its deviation is this share of the largest over temperature.
 constexpr double kLeastShare = 0.02;
-// Rules that can hardly be told apart are held together by their own prior value, this loosely.
+// Rules that can hardly be distinguished also stay near their own prior value, with this deviation.
 constexpr double kRuleDeviation = 10.0;  // in units of `own`
 constexpr Index kGrid = 51;              // temperatures over the range
 
@@ -37,7 +37,7 @@ void set_parameters(FuzzyFriction& friction, const Eigen::VectorXd& c) {
     friction.rules[static_cast<std::size_t>(i)].friction = {c(i) + c(m + i), c(m + i), c(2 * m + i)};
 }
 
-/// Memberships at temperatures over the whole range, a row each.
+/// Memberships at temperatures over the whole range, one row per temperature.
 Eigen::MatrixXd memberships_over_range(const FuzzyFriction& friction) {
   const Index m = friction.rule_count;
   Eigen::MatrixXd Phi(kGrid, m);
@@ -50,8 +50,8 @@ Eigen::MatrixXd memberships_over_range(const FuzzyFriction& friction) {
   return Phi;
 }
 
-/// Q of one kind of parameter: as if the blended parameter had been seen with a relative deviation of 1 all
-/// over the range, as many times as there are rules.
+/// Q of one kind of parameter. It is the covariance after seeing the blended parameter over the whole range
+/// with a relative deviation of 1, as many times as there are rules.
 Eigen::MatrixXd own_covariance(const Eigen::VectorXd& c0, const Eigen::MatrixXd& Phi) {
   const Index m = c0.size();
   const Eigen::VectorXd blended = Phi * c0;
@@ -76,7 +76,7 @@ Eigen::MatrixXd prior_covariance(const FuzzyFriction& prior, const Eigen::Vector
   return P;
 }
 
-/// c = U d with d >= 0 is the set of physical parameters: sums from the warm end for those that fall with temperature.
+/// The physical parameters are c = U d with d >= 0. Those that fall with temperature are sums from the warm end.
 Eigen::MatrixXd physical_basis(Index m) {
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(3 * m, 3 * m);
   for (Index kind = 1; kind < 3; ++kind)
@@ -88,7 +88,7 @@ Eigen::MatrixXd physical_basis(Index m) {
 Eigen::VectorXd solve_physical(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, Index m) {
   const Eigen::MatrixXd U = physical_basis(m);
   Eigen::MatrixXd normal = U.transpose() * H * U;
-  // Newton's metres and their seconds are of different sizes: each unknown in the unit of its own curvature.
+  // Values in N m and in N m s/rad differ in size, so that each unknown is scaled by its own curvature.
   const Eigen::VectorXd unit = normal.diagonal().cwiseSqrt().cwiseInverse();
   normal = unit.asDiagonal() * normal * unit.asDiagonal();
   const Eigen::VectorXd right = unit.asDiagonal() * (U.transpose() * g);

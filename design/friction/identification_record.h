@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the friction of a file came from when it was measured on a joint: part of the friction file. Joint
-// side. Offline.
+// Record of how the friction of a file was measured on a joint. It is part of the friction file. Joint side.
+// Offline.
 #pragma once
 
 #include <string>

@@ -32,8 +32,8 @@ LinearFit::LinearFit(const FitTargets& targets, const Eigen::Matrix3d& metric, c
   gram_.diagonal().array() += kFitRidge * gram_.trace();
   gram_factor_.compute(gram_);
   const Eigen::MatrixX3d right = basis_.transpose().lazyProduct(targets.parameters);
-  // Without active constraints the metric cancels: with the same functions for every parameter, three
-  // separate problems.
+  // Without active constraints the metric cancels. All parameters have the same functions, so that three
+  // separate problems remain.
   const Eigen::MatrixX3d D = gram_factor_.solve(right);
   constraints_active_ = constraint != LinearConstraint::kNone && D.minCoeff() < 0.0;
   if (constraints_active_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The linear half of a friction fit: parameters that are combinations Phi C of known functions of
-// temperature. Variable projection: the nonlinear half is fitted over the cost that remains here. Offline.
+// temperature. The nonlinear half minimises the cost that remains here (variable projection). Offline.
 // Source: Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973); Kaufman, BIT 15 (1975) for the curvature.
 #pragma once
 
@@ -19,8 +19,8 @@ enum class LinearConstraint {
   kNonNegativeDescending,  ///< each column: C_1 >= C_2 >= ... >= 0
 };
 
-/// minimise over C: metric_cost(parameters - Phi C). Phi: n x m, m <= 16. A relative ridge of 1e-12 keeps
-/// functions that coincide apart; it does not move a well-posed fit.
+/// minimise over C: metric_cost(parameters - Phi C). Phi: n x m, m <= 16. A relative ridge of 1e-12 makes the
+/// fit unique if functions coincide. It does not change a well-posed fit.
 ///
 /// "Whitened": multiplied by L from the right, metric = L L', so that the cost is half a plain sum of squares.
 class LinearFit {
@@ -33,9 +33,9 @@ class LinearFit {
   double cost() const { return cost_; }
   const Eigen::Matrix3d& whitening() const { return L_; }  ///< L
 
-  /// Derivative of the cost over parameters p of Phi, and Gauss-Newton's approximation of the second one.
-  /// Column k of `change` is d(Phi)/d p_k C L, n x 3 stacked by columns. C's own change does not count in the
-  /// first: C is optimal (envelope theorem), also where constraints are active. It is projected out of the second.
+  /// Derivative of the cost over parameters p of Phi, and Gauss-Newton's approximation of the second derivative.
+  /// Column k of `change` is d(Phi)/d p_k C L, n x 3 stacked by columns. The gradient ignores the change of C,
+  /// because C is optimal even with active constraints (envelope theorem). The curvature projects it out.
   Eigen::VectorXd gradient(const Eigen::MatrixXd& change) const;
   Eigen::MatrixXd curvature(const Eigen::MatrixXd& change) const;
 
@@ -51,7 +51,7 @@ class LinearFit {
   RuleMatrix gram_;        // basis' basis
   Eigen::LLT<RuleMatrix> gram_factor_;
   bool constraints_active_ = false;
-  SmallMatrix normal_;  // of vec(D), 3m x 3m; only where constraints are active, likewise free_
+  SmallMatrix normal_;  // of vec(D), 3m x 3m; set only if constraints are active, as is free_
   FreeUnknowns free_;
   Eigen::MatrixX3d C_;
   Eigen::MatrixX3d errors_;

@@ -32,7 +32,7 @@ SmallVector solve_free(const SmallMatrix& H, const SmallVector& g, const FreeUnk
   return x;
 }
 
-// Walks from x towards `target` until the first free unknown reaches zero, and holds it there. True when it arrives.
+// Goes from x towards `target` until the first free unknown reaches zero, which it then holds. True on arrival.
 bool walk(SmallVector& x, const SmallVector& target, const FreeUnknowns& free, Flags& is_free) {
   double step = 1.0;
   Index blocking = -1;
@@ -76,15 +76,15 @@ SmallMatrix free_part(const SmallMatrix& H, const FreeUnknowns& free) {
 
 NonnegativeSolution solve_nonnegative(const SmallMatrix& H, const SmallVector& g) {
   const Index n = g.size();
-  // Most fits of ours hold few unknowns at zero: begin with those free that are positive without the constraint.
+  // Most fits hold few unknowns at zero. The first free ones are those that are positive without the constraint.
   const SmallVector unconstrained = solve_free(H, g, all_free(n));
   Flags is_free{};
   for (Index i = 0; i < n; ++i) is_free[static_cast<std::size_t>(i)] = unconstrained(i) > 0.0;
   NonnegativeSolution solution{unconstrained.cwiseMax(0.0), {}};
   SmallVector& x = solution.x;
   const double tolerance = 1e-12 * g.cwiseAbs().maxCoeff();
-  // Each pass frees one unknown and lowers the cost, so that no set occurs twice; the limit is far beyond
-  // what is needed.
+  // Each pass frees one unknown and lowers the cost, so that no set occurs twice. The limit is far above the
+  // usual number of passes.
   for (Index pass = 0; pass < 10 * n; ++pass) {
     for (;;) {
       solution.free = collect(is_free, n);

@@ -11,7 +11,7 @@ namespace strainwave {
 namespace {
 
 constexpr double kSameSpeed = 1e-9;    // relative: the shaper holds a speed exactly
-constexpr double kLongestGap_s = 0.1;  // lost messages; more than that is another run
+constexpr double kLongestGap_s = 0.1;  // covers lost messages; a longer gap begins another run
 
 using Run = std::span<const MotionSample>;
 
@@ -21,7 +21,7 @@ bool continues(const MotionSample& before, const MotionSample& sample) {
          change <= kSameSpeed * std::abs(before.setpoint_velocity_rad_s);
 }
 
-/// Stretches of constant setpoint velocity other than 0; one sample alone is the passing value of a ramp.
+/// Stretches of constant setpoint velocity other than 0. A single sample is only a value on a ramp.
 std::vector<Run> constant_runs(const std::vector<MotionSample>& samples) {
   std::vector<Run> runs;
   for (std::size_t begin = 0; begin < samples.size();) {
@@ -92,7 +92,7 @@ bool is_steady(Run run, double inertia_kgm2, const SteadyCriteria& criteria) {
          criteria.inertia_tolerance * std::abs(mean_torque_Nm(run));
 }
 
-/// What lies between two positions.
+/// The range between two positions.
 struct Stretch {
   double low_rad = 0.0;
   double high_rad = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction from motion at steady speeds: the torque that is applied while neither the inertia nor a transient
-// takes part of it. Joint side, SI. Offline.
+// Friction from motion at steady speeds, at which neither inertia nor a transient takes part of the torque.
+// Joint side, SI. Offline.
 //
 //   J dw/dt = T - load(theta) - F(w)      so at steady speed     T = F(w) + load(theta)
 //   There and back over the same stretch of positions the mean loads are equal and F changes its sign:
@@ -25,15 +25,15 @@ struct MotionSample {
 /// When a stretch of constant setpoint velocity counts as steady motion of the joint.
 struct SteadyCriteria {
   double settle_share = 0.2;       ///< of each run, left out at its beginning
-  double settle_s = 0.05;          ///< at least this much
-  int least_samples = 20;          ///< after that
+  double settle_s = 0.05;          ///< least time that is left out
+  int least_samples = 20;          ///< that must remain
   double speed_tolerance = 0.02;   ///< joint's mean speed against the setpoint's
   double ripple_tolerance = 0.02;  ///< deviation from a straight line, in units of the distance travelled
   /// Standard deviation of the velocity, in units of the speed. Slow joints stick and slip where friction
   /// falls with speed; the mean torque then belongs to no speed.
   double velocity_tolerance = 0.25;
   double inertia_tolerance = 0.02;  ///< torque that a change of speed takes, in units of the torque
-  double least_overlap = 0.5;       ///< of the stretches there and back, in units of the longer one
+  double least_overlap = 0.5;  ///< common part of the stretches there and back, in units of the longer one
 };
 
 /// Friction at one speed and temperature.

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLargestMargin = 0.5;
 constexpr double kFirstMistakenShare = 0.01;  // a hundredth, a tenth, then all of the cost
 
-// C1 and C2 drop the first state.
+// C1 and C2 have no integral, which is the first state.
 Eigen::Index first_state(Controller controller) {
   return has_integrator(controller) ? 0 : 1;
 }
@@ -100,7 +100,7 @@ ControllerProblem make_problem(Controller controller, const DesignRequest& reque
   return problem;
 }
 
-// What could be asked for instead.
+// Suggests how to relax the request.
 std::string advice(const DesignRequest& request) {
   std::string text;
   if (request.max_torque_Nm) text += " Allow more torque (--max-torque_Nm), or a smaller --x0.";
@@ -127,8 +127,8 @@ std::string failure_message(Controller controller, const DesignRequest& request,
          ". Whether a solution exists is not known." + advice(request);
 }
 
-// x' P_j x <= lambda for the initial states, so that |row x|^2 <= limit^2 follows from limit^2 P_j / lambda -
-// row' row > 0.
+// x' P_j x <= cost_bound holds from the initial states on. If limit^2 P_j / cost_bound - row' row > 0, this
+// implies |row x|^2 <= limit^2.
 bool bound_holds(const FeedbackGains& gains, int rule, const GainRow& row, double limit) {
   const Eigen::Index first = gains.has_integrator ? 0 : 1;
   const Eigen::Index n = kMaxStates - first;

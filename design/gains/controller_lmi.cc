@@ -11,7 +11,7 @@ namespace strainwave {
 
 namespace {
 
-// The problem in z, x = S z, with the cost divided by `cost_unit` and the torque by `input_unit`.
+// Units of the solved problem: x = S z, the cost divided by `cost`, the torque by `input`.
 struct Units {
   Eigen::VectorXd state;  // diagonal of S
   double cost = 1.0;
@@ -66,7 +66,7 @@ void require_bounds(LmiProblem& lmi, const ControllerProblem& problem, const Aff
   }
 }
 
-// V falls from rule j to every next rule when the plant is of rule i, by `share` of the stage cost.
+// On plant rule i, V falls by `share` of the stage cost from gain rule j to every next gain rule.
 void require_decrease(LmiProblem& lmi, const ControllerProblem& problem, const Unknowns& unknowns,
                       std::size_t i, std::size_t j, double share) {
   const Eigen::Index n = problem.state_weights.size();
@@ -128,7 +128,7 @@ ControllerSolution solve_in_units(const ControllerProblem& problem, const Units&
   return solution;
 }
 
-// S = diag(P)^(-1/2) and the cost's unit from `diagonal` of P and the cost. False when they are not usable.
+// Sets S = diag(P / cost)^(-1/2) and the cost's unit. Returns false if they are not positive and finite.
 bool balance(const Eigen::VectorXd& diagonal, double cost, Units& units) {
   if (!(cost > 0.0) || !std::isfinite(cost)) return false;
   if (!diagonal.allFinite() || !(diagonal.minCoeff() > 0.0)) return false;
@@ -137,7 +137,7 @@ bool balance(const Eigen::VectorXd& diagonal, double cost, Units& units) {
   return true;
 }
 
-// The largest diagonal over the rules.
+// Balances by the largest diagonal entries over the rules.
 bool rebalance(const ControllerSolution& solution, Units& units) {
   if (solution.P.empty()) return false;
   Eigen::VectorXd diagonal = solution.P.front().diagonal();
@@ -151,7 +151,7 @@ double largest_cost(const ControllerProblem& problem, const Eigen::MatrixXd& P) 
   return largest;
 }
 
-// What one rule alone would cost without limits; the weights themselves where that has no answer.
+// Units from the Riccati cost of one rule without limits, or from the weights if that has no solution.
 Units first_units(const ControllerProblem& problem) {
   const std::size_t middle = problem.A.size() / 2;
   const double rate = problem.decay_rate;

@@ -11,16 +11,16 @@
 //     [ R^(1/2) M_j           0      0         lambda I ]
 //     [ G_j+G_j'-Q_j  . ;  M_j     umax^2   ] >= 0           |u| <= umax          (Theorem 2)
 //     [ G_j+G_j'-Q_j  . ;  c G_j   ymax^2   ] >= 0           |c x| <= ymax        (Theorem 3)
-// Then F_j = M_j G_j^-1, P_j = lambda Q_j^-1, V = x' (sum alpha_j P_j) x, V+ <= r^2 (V - x'Wx - u'Ru), and
-// along every trajectory from a convex combination of the v: sum of costs <= lambda, and the bounds hold.
+// Then F_j = M_j G_j^-1, P_j = lambda Q_j^-1, V = x' (sum alpha_j P_j) x and V+ <= r^2 (V - x'Wx - u'Ru). Along
+// every trajectory from a convex combination of the v, the sum of costs is at most lambda, and the bounds hold.
 //
-// The paper's unknowns are these Q, G, M divided by lambda, with lambda in the first inequality and 1 in the
-// others. Its bounds are then mu^2 lambda and gamma^2 lambda, and a limit in N.m needs a search over mu. In
-// the unknowns above lambda and the limits enter linearly: the limit in N.m is itself an LMI, and one solve
-// gives what the search converges to. W and R are factored so that their inverses, 1e4 and 1e6, do not appear.
+// The paper divides Q, G and M by lambda; then lambda is in the first inequality and 1 in the others. Its
+// bounds are mu^2 lambda and gamma^2 lambda, and a limit in N.m needs a search over mu. In the unknowns
+// above, lambda and the limits enter linearly. The limit in N.m is itself an LMI, and one solve gives the
+// result to which the search converges. Square roots of W and R avoid their inverses, 1e4 and 1e6.
 //
-// A temperature-free controller has one F, G, Q for every rule. With `mistaken_share` the third inequality is also
-// asked for plant rules i != j under gain j, with W and R times that share: a wrong temperature.
+// A temperature-free controller has one F, G, Q for every rule. With `mistaken_share`, the block inequality also
+// holds for plant rules i != j under gain j, with W and R times that share. This covers a wrong temperature.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,26 +47,26 @@ struct ControllerProblem {
   double input_limit = 0.0;                     ///< umax, 0: none
   std::vector<OutputBound> output_bounds;
   bool scheduled = true;  ///< one gain per rule; false: one for all
-  /// Share of the stage cost by which V must fall where plant and gain have different rules; 0: not asked.
+  /// Share of the stage cost by which V must fall if plant and gain have different rules; 0: no condition.
   double mistaken_share = 0.0;
 };
 
 struct ControllerSolution {
   SdpStatus status = SdpStatus::kCrashed;
-  /// It is proved that there is no solution, up to unknowns kProvedSize times those of a single rule's optimum.
+  /// It is proved that no solution has unknowns below kProvedSize, in units of a single rule's optimum.
   bool impossible = false;
   std::string explanation;
   double lambda = 0.0;
-  std::vector<Eigen::RowVectorXd> F;  ///< one per rule, or one
-  std::vector<Eigen::MatrixXd> P;     ///< likewise, symmetric
-  double violation = 0.0;             ///< of the last (balanced) solve's inequalities
+  std::vector<Eigen::RowVectorXd> F;  ///< one per rule if scheduled, else one
+  std::vector<Eigen::MatrixXd> P;     ///< as many as F, symmetric
+  double violation = 0.0;             ///< of the inequalities in balanced units
 };
 
 inline constexpr double kProvedSize = 1e6;
 
-/// Solves in balanced units: x = S z, first with S = diag(P)^(-1/2) of the Riccati equation of a middle rule,
-/// then of that result; the cost is scaled so that lambda is near 1. Neither the units of the states nor that
-/// of the cost change the result. Two solves, and a third that looks for a proof when they fail.
+/// Solves in balanced units, x = S z with S = diag(P)^(-1/2). The first solve takes P from the Riccati equation of a middle
+/// rule, the second from the first result. The cost is scaled so that lambda is near 1. The units of the states and of the
+/// cost therefore do not change the result. If both solves fail, a third one looks for a proof that there is no solution.
 ControllerSolution solve_controller(const ControllerProblem& problem, const SdpOptions& options = {});
 
 }  // namespace strainwave

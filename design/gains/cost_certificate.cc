@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-// Controllers without an integrator have the states after the first.
+// A controller without an integrator omits the first state.
 struct Problem {
   const FeedbackGains& gains;
   std::size_t first = 0;
@@ -95,7 +95,7 @@ void keep_worst(CertificateReport& report, const PositiveDefiniteResult& result,
   }
 }
 
-// One rule of the plant under one gain, to every next rule.
+// Tests one rule of the plant under one gain, for every next gain rule.
 void test_rule(const Problem& problem, const BoundedDynamics& plant, std::size_t i, std::size_t j,
                CertificateReport& report) {
   const bool own = problem.P.size() == 1 || i == j;
@@ -163,7 +163,7 @@ CertificateReport certify(const FeedbackGains& gains, std::span<const BoundedDyn
 CertificateReport certify(const FeedbackGains& gains, const PlantIdentity& plant,
                           const FuzzyFriction& friction) {
   std::vector<BoundedDynamics> rules;
-  if (friction.rule_count > kMaxTemperatureRules) return certify(gains, rules);  // fits nothing
+  if (friction.rule_count > kMaxTemperatureRules) return certify(gains, rules);  // refuses
   for (int i = 0; i < plant_rule_count(friction); ++i) {
     rules.push_back(
         bounded_dynamics(plant, plant_rule_viscous_Nms_rad(friction, i), gains.has_integrator != 0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint sampled by forward Euler, as in Zhao (2006), to reproduce that paper. No machine moves like
-// this between samples; design/gains/ts_plant.h has what the loop does. Offline.
+// The joint sampled by forward Euler, as in Zhao (2006), to reproduce that paper. Offline. A real joint does
+// not move like this between samples; design/gains/ts_plant.h has the exact solution.
 #pragma once
 
 #include "design/gains/ts_plant.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear matrix inequalities written as in the paper: matrices that depend affinely on unknowns, and a list
-// of those that must be positive semidefinite. Offline. Dense; meant for a few hundred unknowns and blocks of
-// about ten rows.
+// Linear matrix inequalities (LMIs) written as in Zhao (2006): matrices that depend affinely on unknowns, and
+// a list of those that must be positive semidefinite. Offline. The matrices are dense, for a few hundred
+// unknowns and blocks of about ten rows.
 //
 //   LmiProblem lmi;
 //   const AffineMatrix Q = lmi.symmetric(n), G = lmi.matrix(n, n), M = lmi.matrix(1, n);
@@ -16,10 +16,10 @@
 
 namespace strainwave {
 
-/// constant + sum_i x_i coefficient_i; every matrix of the same shape.
+/// constant + sum_i x_i coefficient_i. All matrices have the same shape.
 class AffineMatrix {
  public:
-  /// 0x0: stands for a block of zeros in symmetric_blocks().
+  /// An empty (0x0) matrix, which symmetric_blocks() takes for a block of zeros.
   AffineMatrix() = default;
   AffineMatrix(const Eigen::MatrixXd& constant)
       : constant_(constant) {}  // NOLINT(google-explicit-constructor)
@@ -28,7 +28,7 @@ class AffineMatrix {
   Eigen::Index rows() const { return constant_.rows(); }
   Eigen::Index cols() const { return constant_.cols(); }
   const Eigen::MatrixXd& constant() const { return constant_; }
-  /// By unknown; unknowns that do not occur are left out.
+  /// Coefficients by the number of their unknown. Unknowns that do not occur have no entry.
   const std::map<int, Eigen::MatrixXd>& coefficients() const { return coefficients_; }
   /// Adds x_unknown * coefficient.
   void add_term(int unknown, const Eigen::MatrixXd& coefficient);
@@ -39,7 +39,7 @@ class AffineMatrix {
   /// The value at `unknowns`.
   Eigen::MatrixXd at(const Eigen::VectorXd& unknowns) const;
 
-  // Defined here, so that they are found for this class only: every MatrixXd would convert.
+  // Friends that are defined here are found for this class only. Otherwise every MatrixXd would convert.
   friend AffineMatrix operator+(AffineMatrix a, const AffineMatrix& b) {
     assert(a.rows() == b.rows() && a.cols() == b.cols());
     a.constant_ += b.constant_;
@@ -87,8 +87,8 @@ class LmiProblem {
   const std::vector<AffineMatrix>& inequalities() const { return inequalities_; }
   const AffineMatrix& objective() const { return objective_; }
 
-  /// How far `unknowns` violate the inequalities: the largest -eigenvalue / max(1, norm) over all blocks; <=
-  /// 0: none.
+  /// Violation of the inequalities at `unknowns`: the largest -(least eigenvalue) / max(1, largest
+  /// eigenvalue) of all blocks. It is 0 or less if all inequalities hold.
   double violation(const Eigen::VectorXd& unknowns) const;
 
  private:

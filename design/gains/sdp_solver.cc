@@ -24,7 +24,7 @@ namespace strainwave {
 
 namespace {
 
-// Makes the child silent and harmless, solves, and sends the result as bytes. Never returns.
+// Silences the child, limits its CPU time, solves, and writes the result to the pipe as bytes. Never returns.
 [[noreturn]] void run_child(const LmiProblem& problem, const SdpOptions& options, int result_fd) {
   const int null_fd = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null_fd, standard);
@@ -51,7 +51,7 @@ namespace {
 
 enum class ReadOutcome { kWhole, kEnded, kTimeout };
 
-// Reads exactly `size` doubles, or until the child closes the pipe or the time is up.
+// Fills `answer`, unless the child closes the pipe or the time limit ends first.
 ReadOutcome read_answer(int fd, double time_limit_s, std::vector<double>& answer) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -79,7 +79,7 @@ SdpResult failure(SdpStatus status, const std::string& explanation) {
   return result;
 }
 
-// What the solver says, corrected by what its point is worth.
+// Combines the solver's verdict with the violation and the gap of its point.
 SdpResult judge(const LmiProblem& problem, const SdpOptions& options, const std::vector<double>& answer) {
   SdpResult result;
   const auto phase = static_cast<SdpaPhase>(static_cast<int>(answer[0]));

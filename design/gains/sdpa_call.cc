@@ -15,7 +15,7 @@ namespace strainwave {
 
 namespace {
 
-// SDPA: minimise c'x with X = sum x_i F_i - F_0 >= 0. It counts from 1 and takes upper triangles.
+// SDPA minimises c'x with X = sum x_i F_i - F_0 >= 0. It counts from 1 and takes upper triangles.
 void input_block(SDPA& sdpa, int block, const AffineMatrix& inequality) {
   const auto input = [&sdpa, block](int unknown, const Eigen::MatrixXd& matrix, double factor) {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -30,7 +30,7 @@ void input_block(SDPA& sdpa, int block, const AffineMatrix& inequality) {
   for (const auto& [unknown, coefficient] : inequality.coefficients()) input(unknown + 1, coefficient, 1.0);
 }
 
-// By SDPA's words: its phase numbers name the problem that it calls dual inside.
+// Reads SDPA's phase as text, because its phase numbers refer to the problem that it calls dual internally.
 SdpaPhase classify(SDPA& sdpa) {
   std::array<char, 64> text{};
   sdpa.getPhaseString(text.data());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The call into SDPA itself, in the child process of sdp_solver.cc: may print, exit or crash. Only
-// sdpa_call.cc sees SDPA's headers.
+// The call of SDPA in the child process of sdp_solver.cc. It may print, exit or crash. Only sdpa_call.cc
+// includes SDPA's headers.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace strainwave {
 
 enum class SdpaPhase { kPoint = 0, kInfeasible = 1, kUnbounded = 2 };
 
-/// [phase, iterations, relative gap], then the unknowns, then the dual matrix of each inequality, row by row.
+/// The answer: [phase, iterations, relative gap], the unknowns, then the dual matrix of each inequality, row by row.
 inline constexpr std::size_t kSdpaHeader = 3;
 std::size_t sdpa_answer_size(const LmiProblem& problem);
 

@@ -21,16 +21,16 @@ namespace strainwave {
 
 namespace {
 
-// The fall that is asked for, W: integral, position and wind-up, their velocities, last position, torques under way. Only the ratios
-// count, and little: those of the cost that the gains are designed for, and a wind-up as dear as the position.
+// Diagonal of W, the required decrease of V: integral, position and wind-up, their velocities, last reading, delayed torques.
+// Only the ratios matter, and little. They are those of the design's cost weights; the wind-up weighs as much as the position.
 constexpr double kIntegralFall = 0.1;
 constexpr double kPositionFall = 1.0;
 constexpr double kVelocityFall = 1e-4;
 constexpr double kReadingFall = 1e-2;
 constexpr double kTorqueFall = 1e-6;
-// Samples over which a corner's own sum of H'^k W H^k is formed, as a power of two.
+// The sum of H'^k W H^k at one corner covers 2^kDoublings samples.
 constexpr int kDoublings = 24;
-// A cell this narrow, as a ratio, that has no P is at the border of what has one.
+// A cell with a smaller ratio of its ends is not cut. Without a P, it lies at the limit of what can be proved.
 constexpr double kNarrowest = 1.002;
 
 Eigen::VectorXd fall_of(const SpringLoop& loop) {
@@ -50,7 +50,7 @@ std::vector<Eigen::MatrixXd> loops_of(std::span<const GainRow> gains, const Spri
   return loops;
 }
 
-// x = S z: the largest diagonal of the corners' Lyapunov matrices. Not finite when one is unstable.
+// S of x = S z, from the mean diagonal of all Lyapunov matrices. If a loop is unstable, an entry is 0 or not finite.
 Eigen::VectorXd balance(const std::vector<Eigen::MatrixXd>& loops, const Eigen::VectorXd& fall) {
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(fall.size());
   for (Eigen::MatrixXd H : loops) {
@@ -115,14 +115,14 @@ double middle_of(const BoxRange& range) {
   return std::sqrt(range.from * range.to);
 }
 
-// The lightest link is the hardest: where it has a P for every stiffness, these may change at any instant.
+// The lightest link is the hardest. If it has one P for all stiffnesses, the stiffness may change at any instant.
 bool may_change_stiffness(std::span<const GainRow> gains, SpringBox box, const SpringLoop& loop) {
   box.link_inertia_kgm2.to = box.link_inertia_kgm2.from;
   return find_spring_lyapunov(gains, box, loop).has_value();
 }
 
-// In two, at the geometric mean: of the link's inertia where the stiffness is to stay whole, else of what changes the free swing more.
-// False when that is narrow.
+// Cuts a cell in two at the geometric mean: of the link inertia if the stiffness range must stay whole, else
+// of the quantity that changes the natural frequency more. Returns false if that range is narrow.
 bool cut(const SpringBox& box, bool keeps_stiffness, std::array<SpringBox, 2>& halves) {
   if (box.link_inertia_kgm2.to == 0.0) return false;  // rigid
   const double by_stiffness = box.stiffness_Nm_rad.to / box.stiffness_Nm_rad.from;
@@ -136,7 +136,7 @@ bool cut(const SpringBox& box, bool keeps_stiffness, std::array<SpringBox, 2>& h
   return true;
 }
 
-// What is known of a cell before it is cut.
+// Result for a cell before it is cut.
 struct Attempt {
   WorstCorner unstable;
   std::optional<ProofMatrix> P;
@@ -172,7 +172,7 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
            cell.stiffness_Nm_rad.to == box.stiffness_Nm_rad.to;
   };
   for (auto next = cells.begin(); next != cells.end();) {
-    // As many of those to come as there are processors; each is solved in a process of its own.
+    // Starts as many of the next cells as there are processors. The solver runs in one process for each cell.
     unsigned under_way = 0;
     for (auto cell = next; cell != cells.end() && under_way < processors; ++cell, ++under_way) {
       if (!cell->attempt.valid())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what control/table/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints. Offline.
+// Finds, for given gains, a matrix P for each cell of a box of joints. control/table/spring_certificate.h verifies it. Offline.
 //
-// P is the least in trace of   P - H' P H / r^2 >= W,   every corner and every gain,   W diagonal,
-// in states that are balanced by the corners' own Lyapunov matrices.
+// P has the least trace subject to   P - H' P H >= W   at every corner and for every gain,   W diagonal.
+// The states are balanced by the corners' own Lyapunov matrices.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace strainwave {
 
-/// P of one box, verified; nothing when the solver finds none that is.
+/// The verified P of one box, or nothing if the solver finds none that certify() accepts.
 std::optional<ProofMatrix> find_spring_lyapunov(std::span<const GainRow> gains, const SpringBox& box,
                                                 const SpringLoop& loop, const SdpOptions& options = {});
 
 enum class SpringOutcome {
   kCertified,  ///< every cell has its P
-  kUnstable,   ///< `unstable` is
-  kNotFound,  ///< no P for `cell`, and it would be cut into more than `most_cells`, or below what a cut is worth
+  kUnstable,   ///< the loop of `unstable` is unstable
+  kNotFound,   ///< no P for `cell`; a cut would exceed `most_cells` or make cells too narrow
 };
 
-/// With the P that proves it.
+/// A cell and the P that proves it.
 struct ProvedCell {
   SpringBox box;
   ProofMatrix P;
@@ -34,8 +34,8 @@ struct ProvedCell {
 struct SpringProof {
   SpringOutcome outcome = SpringOutcome::kNotFound;
   std::vector<ProvedCell> cells;
-  int inequalities = 0;  ///< of those
-  SpringReport worst;    ///< the smallest margin of those
+  int inequalities = 0;  ///< of all proved cells
+  SpringReport worst;    ///< the smallest margin of these cells
   WorstCorner unstable;
   SpringBox cell;
   int most_cells = 0;
@@ -46,12 +46,12 @@ struct SpringProof {
 SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                              int most_cells = 300);
 
-/// The box of a table's joint: the gear's slopes, no damping, viscous friction from 0 to the largest of the rules. Throws InputError when
-/// `gear` is none of the catalogue.
+/// The box of a joint: stiffness over the gear's slopes, no damping, viscous friction from 0 to the largest
+/// of the rules. Throws InputError if the catalogue does not have `gear`.
 SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear,
                      const BoxRange& motor_inertia_kgm2, const BoxRange& link_inertia_kgm2);
 
-/// In words, one line per delay.
+/// The result in words, in one line.
 std::string describe(const SpringProof& proof);
 
 }  // namespace strainwave

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostCells = 300;
 
 void add_cells(CertifiedBox& box, const SpringProof& proof, const SpringLoop& loop) {
-  const Eigen::Index left_out = loop.has_integrator ? 0 : 1;  // zeros
+  const Eigen::Index left_out = loop.has_integrator ? 0 : 1;  // the integral's entries stay 0
   for (const ProvedCell& proved : proof.cells) {
     BoxCell& cell = box.cells.at(static_cast<std::size_t>(box.cell_count++));
     cell = {loop.delay_periods, proved.box.stiffness_Nm_rad, proved.box.link_inertia_kgm2, {}};
@@ -45,7 +45,7 @@ CertifiedBox requested_box(const GainTable& table, const std::string& gear, cons
           {}};
 }
 
-// `table` with its box, but for the cells. The longest delay first: it is the hardest.
+// `table` has its box without the cells. Begins with the longest delay, which is the hardest.
 SpringVerdict judge(const GainTable& table, bool for_a_table) {
   const std::vector<GainRow> gains = gains_of(table);
   const char* const joint = table.box.rigid() ? "rigid, delay " : "with the spring, delay ";

@@ -17,20 +17,20 @@ namespace strainwave {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The sum of an impulse response ends where a thousand samples add less than this share of it.
+// The sum of an impulse response ends when a batch of samples adds less than this share.
 constexpr int kBatch = 1000;
 constexpr double kSmallestShare = 1e-6;
 constexpr int kMostBatches = 1000;
-// s, in units of B' P B / 2, which it must exceed: steps of a sixth of a decade.
+// Steps of s, in units of B' P B / 2, which s must exceed. A step is a sixth of a decade.
 constexpr int kSteps = 36;
 constexpr int kStepsPerDecade = 6;
 constexpr int kHalvings = 40;
 
-// Without heap: these loops are long.
+// Fixed-size storage keeps the long loops below free of heap allocation.
 using States = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxProofStates, 1>;
 using Inputs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, kMaxProofStates, 2>;
 
-// The first state of the plant, and the last reading.
+// Indices of the plant's first state (the position) and of the last reading.
 Eigen::Index position_of(const SpringLoop& loop) {
   return loop.has_integrator ? 1 : 0;
 }
@@ -38,7 +38,7 @@ Eigen::Index last_reading_of(const SpringLoop& loop) {
   return position_of(loop) + loop.plant_states;
 }
 
-// y of spring_plant.h.
+// The row y of spring_plant.h.
 Eigen::RowVectorXd reading(const SpringLoop& loop) {
   Eigen::RowVectorXd y = Eigen::RowVectorXd::Zero(loop.states());
   y(position_of(loop)) = 1.0;
@@ -47,7 +47,7 @@ Eigen::RowVectorXd reading(const SpringLoop& loop) {
   return y;
 }
 
-// [A B; 0 1] with B of a torque at the link.
+// [A B; 0 1], where B is that of a torque at the link, or at the motor of a rigid joint.
 ProofMatrix sampled_with_load(const SpringPlant& plant, double period_s) {
   BoundedMatrix generator = spring_generator(plant, period_s);
   if (plant.link_inertia_kgm2 == 0.0) return spring_exponential(generator).value;
@@ -70,7 +70,7 @@ Eigen::RowVector2d sums_of_response(const ProofMatrix& H, Inputs inputs, const E
   return Eigen::RowVector2d::Constant(kInfinity);
 }
 
-// The row K of the torque that the law wants.
+// The row K of the torque K x that the law demands.
 Eigen::RowVectorXd wanted_torque(const BoundedMatrix& sampled, const GainRow& gain, SpringLoop loop) {
   const Eigen::Index n = loop.states();
   const bool at_once = loop.delay_periods == 0;
@@ -82,7 +82,7 @@ Eigen::RowVectorXd wanted_torque(const BoundedMatrix& sampled, const GainRow& ga
   return K;
 }
 
-// How one gain at one corner bears a limited torque, in coordinates z in which P is 1 and R diagonal.
+// One gain at one corner under limited torque, in coordinates z in which P is the identity and R is diagonal.
 class LimitedLoop {
  public:
   LimitedLoop(const Eigen::MatrixXd& H, const Eigen::RowVectorXd& K, const Eigen::VectorXd& B,
@@ -97,8 +97,8 @@ class LimitedLoop {
   bool proved() const { return fall_.minCoeff() > 0.0; }
   double by_input() const { return by_input_; }
 
-  // The least G P^-1 G' with `s` > by_input() / 2. In z, with m >= 0 the multiplier of the condition on g,
-  // G = a + g / s, a = K - B' P H / s, and the best g is -a s / (1 + m s^2 / R).
+  // The least G P^-1 G' for a given `s` > by_input() / 2. In z, G = a + g / s with a = K - B' P H / s. The
+  // best g is -a s / (1 + m s^2 / R), where m >= 0 is the multiplier of the condition on g.
   double least_square(double s) const {
     const States a = wanted_ - coupling_ / s;
     const double allowed = 2.0 * s - by_input_;
@@ -165,7 +165,7 @@ TableReach reach_of(std::span<const GainRow> gains, const SpringBox& box, const 
     }
     level = std::min(level, largest_level(limited));
   }
-  // At rest the last reading is as far off; at a velocity it is what makes the law take that velocity.
+  // At rest, the last reading has the same error. In motion, the law derives the velocity from the last reading.
   Eigen::VectorXd off = Eigen::VectorXd::Zero(n);
   off(first) = off(last_reading_of(loop)) = 1.0;
   Eigen::VectorXd moving = Eigen::VectorXd::Zero(n);

@@ -13,7 +13,7 @@ double phi1(double z) noexcept {
   return z == 0.0 ? 1.0 : -std::expm1(-z) / z;
 }
 
-// (exp(-z) - 1 + z) / z^2, continuous at 0; the series where the difference would cancel.
+// (exp(-z) - 1 + z) / z^2, continuous at 0. Up to |z| = 1, where the difference would cancel, it is a series.
 double phi2(double z) noexcept {
   if (std::abs(z) > 1.0) return (std::expm1(-z) + z) / (z * z);
   double term = 0.5;
@@ -48,9 +48,9 @@ BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_
     dynamics.A[0][0] = 1.0;
     dynamics.A[0][1] = period;
   }
-  // exp, expm1 and the series are good to a few half ulps relative (phi2's difference loses at most a factor
-  // 4 beyond z = 1), and the rounding of z itself costs no more than |z| half ulps times 3: 64 ulps is a wide
-  // bound for z up to 5, and it grows with z beyond.
+  // The relative error of exp, expm1 and the series is a few half ulps. The difference in phi2 loses at most
+  // a factor of 4 above z = 1. Rounding of z adds at most 3 |z| half ulps. So 64 ulps are a wide bound up to
+  // z = 5, and 4 |z| more cover larger z.
   const double z = plant.period_s * viscous_Nms_rad / plant.inertia_kgm2;
   const double relative = 0x1p-52 * (64.0 + 4.0 * std::abs(z));
   const auto approximate = [relative](double value) { return Bounded(value, relative * std::abs(value)); };

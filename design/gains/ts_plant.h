@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint as a Takagi-Sugeno plant, sampled: what the gains are designed for and certified against.
-// J dw/dt = Tm - friction, d(theta)/dt = w; friction feed-forward removes the static and Coulomb parts, so
-// that each rule is linear with its own viscous coefficient. Source: Zhao (2006), (2-10), (3-9)..(3-35).
-// Real-time safe.
+// The joint as a sampled Takagi-Sugeno plant, for which the gains are designed. cost_certificate.h checks
+// them on it. J dw/dt = Tm - friction, d(theta)/dt = w. Friction feed-forward removes the static and Coulomb
+// parts, so that each rule is linear with its own viscous coefficient. Source: Zhao (2006), (2-10),
+// (3-9)..(3-35). Real-time safe.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct SampledDynamics {
   StateVector B = StateVector::Zero();
 };
 
-/// The same with a bound on the rounding of every entry, for proofs.
+/// The same dynamics with a bound on the rounding error of every entry, for proofs.
 struct BoundedDynamics {
   std::array<std::array<Bounded, kMaxStates>, kMaxStates> A{};
   std::array<Bounded, kMaxStates> B{};
@@ -26,13 +26,13 @@ struct BoundedDynamics {
   SampledDynamics values() const noexcept;
 };
 
-/// One rule: a joint of `plant` with viscous coefficient `viscous_Nms_rad`, sampled as the loop does it: the
-/// torque is held for a period (zero-order hold), and this is the exact solution. The integral row is the sum
-/// that the controller computes: integral[k+1] = integral[k] + ts * error[k]. Inertia, period and viscous are
-/// taken as exact.
+/// One rule: the joint `plant` with viscous coefficient `viscous_Nms_rad`. The solution is exact for a torque
+/// that is constant over a period (zero-order hold), as in the loop. The integral row is the sum that the
+/// controller computes: integral[k+1] = integral[k] + ts * error[k]. Inertia, period and viscous coefficient
+/// count as exact.
 BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
                                  bool has_integrator) noexcept;
-/// Its values alone.
+/// The same rule without the bounds.
 SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
                                  bool has_integrator) noexcept;
 
