@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast a move is that names no speed. Not real-time.
+// The speed of a move without a speed of its own. Not real-time.
 #pragma once
 
 namespace strainwave {
 
-/// Of the joint's speed limit, unless joint.limits.move_speed_share says another: a move by hand that one can follow with the eye, as robot
-/// controllers have it by default.
+/// Default of joint.limits.move_speed_share, as a share of the joint's speed limit. The eye can follow such a move; robot
+/// controllers have the same default for moves by hand.
 inline constexpr double kCalmShare = 0.25;
 
 }  // namespace strainwave

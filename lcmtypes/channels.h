@@ -31,17 +31,17 @@ struct ChannelName {
   std::string kind;
 };
 
-/// A prefix or joint name: 1 to 24 of A-Z a-z 0-9 _ and -, of which - does not come first: a joint "--all" would be an option.
+/// Whether `name` can be a prefix or joint name: 1 to 24 of A-Z a-z 0-9 _ and -, not - first. A joint "--all" would look like an option.
 bool is_valid_name(std::string_view name);
 
 std::string channel(std::string_view prefix, std::string_view joint, std::string_view kind);
 std::string timing_channel(std::string_view prefix);
 
-/// The parts of a channel name, or nothing when it is none of ours.
+/// Returns the parts of a channel name, or nothing for a name of another form.
 std::optional<ChannelName> parse_channel(std::string_view name);
 
-/// A regular expression as LCM's subscribe() takes it, for one kind of every joint under `prefix`; "[^.]+"
-/// for any prefix.
+/// Returns a regular expression for LCM's subscribe(): one kind of channel of every joint under `prefix`. The prefix
+/// "[^.]+" means any.
 std::string channel_pattern(std::string_view prefix, std::string_view kind);
 
 }  // namespace strainwave

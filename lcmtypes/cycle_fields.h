@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of one joint in one cycle: every field that state message and flight record share, with its name and unit, once. Both,
-// and all that prints or draws them, visit this list. Real-time safe if the visitor is.
+// The list of all fields that state messages and flight records have for one joint and cycle, with names and units. Programs that
+// write, print or draw them visit this one list. Real-time safe if the visitor is.
 #pragma once
 
 #include <string_view>
 
 namespace strainwave {
 
-/// Of flight records; another list of fields is another format. Written by daemon/records, read by client/text.
+/// Format number of flight records; it changes with the list of fields. daemon/records writes it, client/text reads it.
 inline constexpr int kFlightRecordFormat = 1;
 
 struct FieldName {
@@ -15,8 +15,7 @@ struct FieldName {
   std::string_view unit;  ///< "1" for counts, numbers, bit sets and shares
 };
 
-/// Calls visit(FieldName, value) for each field that `cycle` has, in this order. Fields that not every record has are left out
-/// of those without them.
+/// Calls visit(FieldName, value) for each field that `cycle` has, in this order. Fields that `cycle` lacks are omitted.
 template <typename Cycle, typename Visit>
 constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
   visit(FieldName{"cycle", "1"}, cycle.cycle);
@@ -48,7 +47,7 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
     visit(FieldName{"reading_fresh", "1"}, cycle.reading_fresh);
 }
 
-/// Where the joint should be read in a cycle, less where it is read.
+/// Returns the position setpoint of a cycle minus the measured position.
 template <typename Cycle>
 constexpr double tracking_error_rad(const Cycle& cycle) {
   return cycle.setpoint_position_rad - cycle.joint_position_rad;

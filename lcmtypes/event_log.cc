@@ -15,10 +15,10 @@ namespace {
 constexpr std::string_view kSyncWord = "\xED\xA1\xDA\x01";
 constexpr std::string_view kMcapMagic = "\x89MCA";
 constexpr std::uint64_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
-/// How much is read at once, at least. Any size serves; 64 KiB holds some fifty states.
+/// Least number of bytes that are read at once. Any size works; 64 KiB holds about fifty states.
 constexpr std::uint64_t kReadBytes = 1U << 16;
 
-// Big-endian, as everything on LCM's wire.
+// Removes a number from the front of `bytes`; LCM's numbers are big-endian.
 template <typename Integer>
 Integer take(std::string_view& bytes) {
   std::uint64_t bits = 0;
@@ -38,7 +38,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& file)
   if (error) throw InputError(name_ + ": is no ordinary file: copy it into one first");
 }
 
-/// At most `count` bytes from `offset` on, fewer at the end of the file. They stay until the next call.
+/// Returns `count` bytes from `offset` on, or fewer at the end of the file. They are valid until the next call.
 std::string_view EventLogReader::bytes_at(std::uint64_t offset, std::uint64_t count) {
   if (offset < buffer_at_ || offset + count > buffer_at_ + buffer_.size()) {
     buffer_.resize(std::min(std::max(count, kReadBytes), size_ - std::min(offset, size_)));
@@ -51,18 +51,18 @@ std::string_view EventLogReader::bytes_at(std::uint64_t offset, std::uint64_t co
   return std::string_view(buffer_).substr(offset - buffer_at_, count);
 }
 
-/// The first place of a sync word that begins from `from` on and ends at `to` or before.
+/// Returns the first place of a sync word that begins at `from` or later and ends at `to` or before.
 std::optional<std::uint64_t> EventLogReader::sync_word_between(std::uint64_t from, std::uint64_t to) {
   while (from + kSyncWord.size() <= to) {
     const std::string_view bytes = bytes_at(from, std::min(kReadBytes, to - from));
     if (const auto at = bytes.find(kSyncWord); at != std::string_view::npos) return from + at;
     if (bytes.size() < kSyncWord.size()) return std::nullopt;
-    from += bytes.size() - (kSyncWord.size() - 1);  // a sync word may lie across two searches
+    from += bytes.size() - (kSyncWord.size() - 1);  // a sync word may span two reads
   }
   return std::nullopt;
 }
 
-/// An event that the file's end cuts off, unless another begins behind: then its length is damaged.
+/// Judges an event that reaches beyond the file's end. It is cut off, unless a sync word follows: then its length is damaged.
 EventLogReader::Found EventLogReader::cut_off() {
   return sync_word_between(offset_ + 1, size_) ? Found::kDamage : Found::kCutOff;
 }
@@ -81,7 +81,7 @@ EventLogReader::Found EventLogReader::look(Header& header) {
     return Found::kDamage;
   const std::uint64_t end = offset_ + kHeaderBytes + header.channel_bytes + header.data_bytes;
   if (end > size_) return cut_off();
-  // What no other event follows may have a wrong length: then others begin within it.
+  // If no event follows, the length may be wrong. Then other events begin within this one.
   const bool followed = kSyncWord.starts_with(bytes_at(end, kSyncWord.size()));
   return followed || !sync_word_between(offset_ + 1, end) ? Found::kEvent : Found::kDamage;
 }
@@ -131,7 +131,7 @@ bool EventLogReader::next(LogEvent& event) {
         return false;
       case Found::kDamage:
         skip();
-        // Sync words that begin no event belong to the same place.
+        // Sync words that begin no event belong to the same damaged place.
         if (!skipping) ++damage_.places;
         skipping = true;
         break;

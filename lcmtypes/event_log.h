@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LCM's event log (lcm-logger, strainwavectl record), read event by event. The file is untrusted: liblcm's
-// own reader ends the program on a wrong length, this one passes over what is damaged and counts it. Not
+// Reads LCM's event log (lcm-logger, strainwavectl record) event by event. The file is untrusted. liblcm's
+// own reader ends the program on a wrong length; this reader skips damaged bytes and counts them. Not
 // real-time; needs no LCM library.
 //
 // An event: sync word 0xEDA1DA01, int64 number, int64 time of receipt in us since the epoch, int32 length of
@@ -25,7 +25,7 @@ struct LogEvent {
   std::vector<std::uint8_t> data;
 };
 
-/// What of a log was passed over, since no event is there.
+/// Parts of a log that were skipped, since they hold no event.
 struct LogDamage {
   std::uint64_t skipped_bytes = 0;
   int places = 0;
@@ -34,14 +34,14 @@ struct LogDamage {
 
 class EventLogReader {
  public:
-  /// LCM's own limit of one message is below this.
+  /// LCM's own limit for one message is below this.
   static constexpr std::uint32_t kMaxData = 16u << 20;
 
   /// Throws InputError when the file cannot be opened.
   explicit EventLogReader(const std::filesystem::path& file);
 
-  /// The next event, behind damage if need be: see damage(). False at the end, also when the last event is
-  /// cut off (the recorder was killed): see truncated(). Throws InputError when the whole file holds no event.
+  /// Reads the next event, and skips damage before it: see damage(). Returns false at the end, also when the last event
+  /// is cut off (the recorder was killed): see truncated(). Throws InputError when the whole file holds no event.
   bool next(LogEvent& event);
   bool truncated() const noexcept { return truncated_; }
   const LogDamage& damage() const noexcept { return damage_; }
@@ -68,13 +68,13 @@ class EventLogReader {
   std::uint64_t size_ = 0;
   std::string buffer_;           ///< a part of the file
   std::uint64_t buffer_at_ = 0;  ///< where it begins in the file
-  std::uint64_t offset_ = 0;     ///< of the event that is read next
-  bool any_ = false;             ///< event was read
+  std::uint64_t offset_ = 0;     ///< position of the event that is read next
+  bool any_ = false;             ///< at least one event was read
   bool truncated_ = false;
   LogDamage damage_;
 };
 
-/// Throws InputError where events are missing: for readers that must not go on without them. Call it at the end.
+/// Throws InputError if parts were skipped, for programs that need every event. Call it at the end.
 void require_undamaged(const EventLogReader& reader, const std::filesystem::path& file);
 
 }  // namespace strainwave

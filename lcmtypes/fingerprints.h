@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of another version: LCM begins each with its type's fingerprint, which changes with any field. Not real-time.
+// Recognizes messages of another version. LCM begins each with its type's fingerprint, which changes with any field. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// Whether `bytes` from a channel of `kind` begin with another fingerprint than that of the type which travels there: a program that
-/// was built with other types speaks. False for a kind that is none of ours, and for less than a fingerprint.
+/// Whether `bytes` from a channel of `kind` begin with another fingerprint than that of the channel's type. The sender was then built
+/// with other types. Returns false for an unknown kind, and for fewer bytes than a fingerprint has.
 bool is_of_another_version(std::string_view kind, std::span<const std::uint8_t> bytes);
 
 }  // namespace strainwave

@@ -11,7 +11,7 @@
 
 namespace strainwave {
 
-/// What a key may order. An engineer may all an operator may.
+/// Rights of a key. An engineer has all rights of an operator.
 enum class Role {
   kOperator,  ///< setpoints and commands
   kEngineer,  ///< also gain tables
@@ -22,21 +22,21 @@ std::optional<Role> parse_role(std::string_view text) noexcept;
 struct AuthorizedKey {
   PublicKey key;
   Role role = Role::kOperator;
-  std::string comment;  ///< whose it is; printable, may be empty
+  std::string comment;  ///< the key's owner; printable, may be empty
 };
 
 struct SecretKeyText {
   SecretKey key;
-  Role role = Role::kOperator;  ///< what its .pub line asks for; the daemon's file decides
+  Role role = Role::kOperator;  ///< role in the .pub line; the role in the daemon's file decides
   std::string comment;
 };
 
-/// Without a line end.
+/// Both return the line without a line end.
 std::string to_line(const AuthorizedKey& key);
 std::string to_line(const SecretKeyText& key);
 
-/// Both throw InputError that says what is wrong with the line (never quoting it, it may be secret) and what
-/// to do.
+/// Both throw InputError with the defect of the line and the remedy. The error never quotes the line, because it may
+/// be secret.
 AuthorizedKey parse_public_line(std::string_view line);
 SecretKeyText parse_secret_line(std::string_view line);
 

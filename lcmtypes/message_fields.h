@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every field of the messages for people, by its name and in the message's order. CSV and JSON are made from this one list. key_id and
-// signature are left out: they say nothing to a reader. A test compares the lists with lcmtypes/*.lcm. Not real-time.
+// Lists every field of the messages that people read, by name and in the message's order. CSV and JSON are made from these lists. They
+// omit key_id and signature, which mean nothing to a reader. A test compares the lists with lcmtypes/*.lcm. Not real-time.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@
 namespace strainwave {
 
 namespace field {
-/// A byte array that holds text, up to its first zero.
+/// Returns the text in a byte array, up to its first zero.
 template <std::size_t size>
 std::string_view text(const std::uint8_t (&bytes)[size]) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as characters
@@ -27,7 +27,7 @@ std::string_view text(const std::uint8_t (&bytes)[size]) {
 }
 }  // namespace field
 
-/// Each calls visit(name, value): a number, a std::span of numbers, or text as a std::string_view.
+/// Each overload calls visit(name, value): a number, a std::span of numbers, or text as a std::string_view.
 template <typename Visit>
 void visit_fields(const state_v1& message, Visit&& visit) {
   visit_state_fields(message, visit);
@@ -83,7 +83,7 @@ void visit_fields(const limits_v1& message, Visit&& visit) {
 }
 
 namespace field {
-/// What every order begins with.
+/// Visits the fields at the beginning of every order.
 template <typename Order, typename Visit>
 void visit_envelope(const Order& order, Visit&& visit) {
   visit("utime", order.utime);

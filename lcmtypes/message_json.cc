@@ -16,7 +16,7 @@ namespace strainwave::json {
 
 namespace {
 
-/// `text` in quotes, without what could command a terminal; bytes that are no UTF-8 become the replacement character.
+/// Returns `text` in quotes, without control characters for a terminal. Bytes that are not UTF-8 become the replacement character.
 std::string quoted(std::string_view text) {
   return nlohmann::json(printable(text)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as JSON objects under their fields' own names, and the JSON schemas of these: what MCAP files and live viewers carry.
-// Not real-time.
+// Converts messages to JSON objects with the fields' own names, and makes the JSON schemas of these. MCAP files and live viewers use
+// both. Not real-time.
 //
-// Numbers that only name something (..._id, challenge) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
-// The schemas say "number" of it all the same: Foxglove's reader takes one type for a field, and shows nothing of a schema with alternatives.
-// Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use. A state also has
-// its tracking_error_rad.
+// Numbers that are identifiers (..._id, challenge) become texts, because readers in JavaScript would round them. NaN and infinity become
+// null. The schemas still say "number": Foxglove's reader takes one type per field, and shows nothing for a schema with alternatives.
+// Modes, faults and similar numbers have a second field with words (mode_text, ...). Arrays per temperature rule end with the rules in use.
+// A state also has its tracking_error_rad.
 #pragma once
 
 #include <concepts>
@@ -28,7 +28,7 @@ std::string schema_name() {
 
 namespace json {
 
-/// Builds one object; keys in the order of the calls.
+/// Builds one object; its keys are in the order of the calls.
 class Object {
  public:
   void add(std::string_view name, double value);
@@ -56,7 +56,7 @@ class Object {
   std::string text_ = "{";
 };
 
-/// Builds the schema of an object whose fields are these.
+/// Builds the schema of an object; each call adds a field.
 class Schema {
  public:
   explicit Schema(std::string_view title);
@@ -72,12 +72,12 @@ class Schema {
   bool any_ = false;
 };
 
-/// A number of 64 bits that is compared and never counted with.
+/// Whether `field` is an identifier: a number of 64 bits that is compared but never used in arithmetic.
 inline bool is_a_name(std::string_view field) {
   return field.ends_with("_id") || field == "challenge";
 }
 
-/// The words of numbers that stand for something: names of fields (mode_text) and texts.
+/// Texts for numbers that are codes: pairs of a field's name (mode_text) and its text.
 using Words = std::vector<std::pair<std::string_view, std::string_view>>;
 template <typename Message>
 Words words_of(const Message&) {
@@ -87,7 +87,7 @@ Words words_of(const state_v1& state);
 Words words_of(const temperature_v1& message);
 Words words_of(const ack_v1& message);
 
-/// What is computed from a message, by name.
+/// Values that are computed from a message: pairs of a name and a value.
 using Derived = std::vector<std::pair<std::string_view, double>>;
 template <typename Message>
 Derived derived_from(const Message&) {
@@ -95,7 +95,7 @@ Derived derived_from(const Message&) {
 }
 Derived derived_from(const state_v1& state);
 
-/// How many entries of an array field mean something.
+/// Returns how many entries of an array field are in use.
 template <typename Message>
 std::size_t used_entries(const Message&, std::string_view, std::size_t size) {
   return size;

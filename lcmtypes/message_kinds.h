@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which type travels on channels of which kind: the one list that recorders and viewers go by. Gain tables are left out, for they are
+// Maps each kind of channel to its message type, in one list for recorders and viewers. It omits gain tables and paths, which are
 // not displayed. Not real-time.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace strainwave {
 
-/// Calls visit(message) with what `bytes` from a channel of `kind` are. False: none of these, or malformed; nothing was called.
+/// Decodes `bytes` from a channel of `kind` and calls visit(message). Returns false, without a call, for another kind or malformed bytes.
 template <typename Visit>
 bool visit_message(std::string_view kind, std::span<const std::uint8_t> bytes, Visit&& visit) {
   const auto as = [&]<typename Message>() {

@@ -34,7 +34,7 @@ std::string last_error() {
   return std::system_category().message(errno);
 }
 
-/// Why a datagram to `group` does not come back, or an empty text.
+/// Returns why a datagram to `group` does not come back, or an empty text.
 std::string echo_failure(in_addr group) {
   const UniqueFd receiver(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   const UniqueFd sender(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
@@ -63,7 +63,7 @@ std::string echo_failure(in_addr group) {
 
 constexpr int kNoNumber = -1;
 
-/// All of `text` as a number; else kNoNumber.
+/// Returns all of `text` as a number, or kNoNumber.
 int whole_number(std::string_view text) {
   int number = 0;
   const char* const end = text.data() + text.size();
@@ -71,7 +71,7 @@ int whole_number(std::string_view text) {
   return error == std::errc() && last == end ? number : kNoNumber;
 }
 
-/// What stands behind the URL's question mark, "KEY=VALUE" each.
+/// Returns the options behind the URL's question mark, each of the form "KEY=VALUE".
 std::vector<std::string_view> options_of(std::string_view lcm_url) {
   std::vector<std::string_view> options;
   std::string_view rest = lcm_url.substr(std::min(lcm_url.find('?'), lcm_url.size()));
@@ -86,7 +86,7 @@ std::vector<std::string_view> options_of(std::string_view lcm_url) {
 constexpr std::string_view kTtl = "ttl=";
 constexpr std::string_view kReceiveBuffer = "recv_buf_size=";
 
-// As LCM reads it: the last of several counts, and what is no number is 0.
+// Reads the ttl as LCM does: the last of several counts, and a text that is no number is 0.
 int ttl_of(std::string_view lcm_url) {
   int ttl = 0;
   for (const std::string_view option : options_of(lcm_url))

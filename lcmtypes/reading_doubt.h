@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a position reading cannot be true, as state_v1.drive_error tells it with fault 5: the cause in the highest byte of 32 bits, below it
-// how far, in microradians. Numbers are never given another meaning; docs/faults.md explains each. Making the number is real-time safe,
-// its text is not.
+// Why a reading is implausible, as state_v1.drive_error encodes it with fault 5. The highest byte of 32 bits is the cause, the lower
+// three are the size in microradians. A number never gets another meaning; docs/faults.md explains each. Making the number is
+// real-time safe, making its text is not.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@ enum class ReadingDoubt : std::uint8_t {
   kPositionNotFinite = 1,
   kVelocityNotFinite = 2,
   kTorqueNotFinite = 3,
-  kJump = 4,   ///< how far: between two readings
-  kStuck = 5,  ///< how far: the torque must have moved the joint by that, and the reading did not change
+  kJump = 4,           ///< size: distance between two readings
+  kStuck = 5,          ///< size: motion that the torque must have caused while the reading did not change
   kCountsMissing = 6,  ///< the drive's own finding
 };
 
-/// More is reported as this.
+/// Larger sizes saturate at this.
 inline constexpr std::int64_t kMostDoubted_urad = 0xFFFFFF;
 
 /// `size_rad` >= 0, or infinite.
@@ -31,13 +31,13 @@ constexpr std::uint32_t doubt_number(ReadingDoubt cause, double size_rad = 0.0) 
   return static_cast<std::uint32_t>(cause) << 24U | static_cast<std::uint32_t>(size_urad);
 }
 
-/// With these faults state_v1.drive_error is the daemon's own finding, with all others the drive's number.
+/// Whether state_v1.drive_error is the daemon's own finding with this fault; with all others it is the drive's number.
 constexpr bool has_own_finding(Fault fault) noexcept {
   return fault == Fault::kImplausibleReading || fault == Fault::kChatter;
 }
 
-/// The fault in words, with the daemon's own finding, of fault 26 lcmtypes/oscillation_evidence.h, of fault 5 the cause: "implausible
-/// reading: the position jumped by 0.05 rad from one reading to the next".
+/// Returns the fault in words. Fault 5 comes with its cause, fault 26 with its evidence (lcmtypes/oscillation_evidence.h). Example:
+/// "implausible reading: the position jumped by 0.05 rad from one reading to the next".
 std::string fault_words(Fault fault, std::int64_t drive_error);
 
 }  // namespace strainwave

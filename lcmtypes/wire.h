@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes on the wire to and from a generated message, exact sizes only. Every type has fixed-size fields, so a message of
-// another length is malformed by definition. Not real-time. No LCM library is needed, only its header.
+// Converts bytes on the wire to and from a generated message. Every type has fixed-size fields, so a message of another length
+// is malformed by definition. Not real-time. Needs only the header of the LCM library.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace strainwave {
 /// No message of ours is longer.
 inline constexpr std::size_t kLargestMessageBytes = 14336;
 
-/// The message in `bytes`, or nothing when the length or the type's fingerprint is not exactly T's.
+/// Returns the message in `bytes`, or nothing when length or fingerprint is not exactly that of T.
 template <typename T>
 std::optional<T> decode_exactly(std::span<const std::uint8_t> bytes) {
   T message{};
@@ -23,7 +23,7 @@ std::optional<T> decode_exactly(std::span<const std::uint8_t> bytes) {
   return message;
 }
 
-/// The wire form of `message`.
+/// Returns the wire form of `message`.
 template <typename T>
 std::vector<std::uint8_t> encode(const T& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
