@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places for a bounded number of names from the network. Each name belongs to the address it was first heard from. When all places are
-// taken, the address with the most names loses the one that has been silent the longest. First whole hosts are compared, then the ports of
-// that host. So a sender that makes up names loses only its own, and one with a port of its own stays. Not real-time.
+// taken, the address with the most names loses the name that has been silent longest. First hosts are compared, then the ports of
+// that host. So a sender that invents names loses only its own, and a sender on another port keeps its names. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class FairPlaces {
  public:
   explicit FairPlaces(std::size_t places) : places_(places) {}
 
-  /// `name` is heard from `from` and has a place from now on. Returns the name that lost its own for it, if one did.
+  /// Notes that `name` was heard from `from`, and gives it a place. Returns the name that lost its place for it, if any.
   std::optional<Name> take(const Name& name, const LcmSource& from, double now_s) {
     if (const auto known = names_.find(name); known != names_.end()) {
       known->second.heard_s = now_s;
@@ -72,8 +72,8 @@ class FairPlaces {
 
   std::size_t places_;
   std::map<Name, Place> names_;
-  std::map<std::uint32_t, std::size_t> hosts_;  ///< names of each
-  std::map<Port, std::size_t> ports_;           ///< the same
+  std::map<std::uint32_t, std::size_t> hosts_;  ///< number of names per host
+  std::map<Port, std::size_t> ports_;           ///< number of names per port of a host
 };
 
 }  // namespace strainwave

@@ -32,7 +32,7 @@ void clear(const UniqueFd& event) noexcept {
   ::eventfd_read(event.get(), &count);
 }
 
-/// While it lives new threads of this one take no signals: those are for who waits.
+/// While it lives, new threads start with all signals blocked, so that signals go to the threads that wait for them.
 class WithoutSignals {
  public:
   WithoutSignals() {
@@ -78,7 +78,7 @@ void LcmReadAhead::read(const std::stop_token& stop) {
   }
 }
 
-// Whole or not at all.
+// Stores a datagram completely, or drops it.
 void LcmReadAhead::put(const Head& head, std::span<const std::uint8_t> datagram) {
   const std::size_t begin = filling_.size();
   if (begin + sizeof head + datagram.size() > room_bytes_) {

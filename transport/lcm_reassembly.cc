@@ -7,7 +7,7 @@ namespace strainwave {
 
 namespace {
 
-// Whoever is on this machine may send from any of its loopback addresses.
+// A program on this machine may send from any loopback address.
 std::uint32_t host_of(std::uint32_t address) noexcept {
   constexpr std::uint32_t kLoopbackNet = 127;
   return (address >> 24) == kLoopbackNet ? kLoopbackNet << 24 : address;
@@ -56,7 +56,7 @@ std::optional<LcmMessage> LcmReassembly::take_fragment(const LcmSource& from, co
   return std::nullopt;
 }
 
-// The slot of this very message: the one that collects it, or a new one.
+// Returns the slot that collects this message, or a new one.
 LcmReassembly::Slot& LcmReassembly::slot_for(const LcmSource& from, const LcmDatagram& fragment) {
   const auto own = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& slot) {
     return slot.state != SlotState::kFree && slot.source == from;
@@ -89,7 +89,7 @@ LcmReassembly::Slot& LcmReassembly::slot_to_give_up(std::uint32_t newcomer) {
   Slot* chosen = &slots_.front();
   std::ptrdiff_t chosen_slots = -1;
   for (Slot& slot : slots_) {
-    // What nobody waits for goes first.
+    // A slot that collects no message goes first.
     if (slot.state != SlotState::kCollecting) return slot;
     const std::ptrdiff_t held = slots_of(host_of(slot.source.address));
     if (held < chosen_slots || (held == chosen_slots && slot.begun > chosen->begun)) continue;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole messages from LCM's datagrams. All memory is taken when it is made: a fixed number of slots, each with room for the
-// largest message, so that no number on the wire decides about memory. Needs no clock.
+// Assembles whole messages from LCM's datagrams. The constructor allocates all memory: a fixed number of slots, each with room for
+// the largest message. So no number on the wire determines the use of memory. Needs no clock.
 //
-// A source (address and port) has one slot, as LCM sends the fragments of one message after the other. Fragments may
-// come in any order and more than once. When every slot is taken, the oldest one of the *host* with the most slots is given
-// up, the newcomer counted: a host that opens many loses only its own. All of 127.0.0.0/8 is one host.
+// A source (address and port) has one slot, because LCM sends one message after the other. Fragments may come in any order and
+// more than once. When every slot is taken, the *host* with the most slots, the new one included, loses its oldest slot. So a host
+// that opens many slots loses only its own. All of 127.0.0.0/8 is one host.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace strainwave {
 
-/// Who sent a datagram: IPv4 address and port, in the host's byte order.
+/// Sender of a datagram: IPv4 address and port, in the host's byte order.
 struct LcmSource {
   std::uint32_t address = 0;
   std::uint16_t port = 0;
@@ -30,28 +30,28 @@ struct LcmSource {
 struct LcmMessage {
   std::string_view channel;
   std::span<const std::uint8_t> bytes;
-  std::uint32_t sequence = 0;  ///< its source counts what it sends
+  std::uint32_t sequence = 0;  ///< number that the source gave to the message
 };
 
 class LcmReassembly {
  public:
   static constexpr std::size_t kSlots = 32;
-  /// LCM's smallest fragments carry 1423 bytes (Apple's systems); more fragments than this are no message of ours.
+  /// LCM's smallest fragments carry 1423 bytes (Apple's systems), so no message of ours has more fragments than this.
   static constexpr std::size_t kMaxFragments = 256;
 
   struct Counts {
     std::uint64_t malformed =
         0;  ///< datagrams that are not LCM's, and messages whose fragments do not fit together
-    std::uint64_t too_long = 0;  ///< datagrams of messages above the largest
+    std::uint64_t too_long = 0;  ///< datagrams of messages with too many bytes or fragments
     std::uint64_t interrupted =
-        0;  ///< messages given up: their source began another one, or others needed the slot
+        0;  ///< messages given up: the source began another one, or another source needed the slot
   };
 
   /// Room for messages of at most `largest_message_bytes`.
   explicit LcmReassembly(std::size_t largest_message_bytes);
 
-  /// Takes a datagram. Returns the message that it completes; what it points to is valid until the next call and as
-  /// long as `datagram`.
+  /// Takes a datagram. Returns the message that it completes, if any. The message is valid until the next call, and only
+  /// as long as `datagram`.
   std::optional<LcmMessage> take(const LcmSource& from, std::span<const std::uint8_t> datagram);
 
   const Counts& counts() const noexcept { return counts_; }
@@ -60,7 +60,7 @@ class LcmReassembly {
   enum class SlotState {
     kFree,
     kCollecting,
-    kDone  ///< delivered or refused: late copies of its fragments begin nothing
+    kDone  ///< delivered or refused; late copies of its fragments are ignored
   };
   struct Part {
     std::uint32_t offset = 0;

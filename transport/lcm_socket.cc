@@ -19,7 +19,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::uint32_t kUdpHeaderBytes = 8;
-constexpr std::uint32_t kLoopbackInterface = 1;  // in every network of Linux
+constexpr std::uint32_t kLoopbackInterface = 1;  // its index in every Linux network namespace
 
 template <typename Value>
 void set(int descriptor, int level, int option, const Value& value, const char* what) {
@@ -57,7 +57,7 @@ void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
   set(descriptor_.get(), SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
   set(descriptor_.get(), IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing this group alone");
   enlarge_queue(queue_bytes);
-  // To the group, not to any address: the kernel then keeps unicast away.
+  // Bound to the group and not to any address, so that the kernel keeps unicast away.
   if (::bind(descriptor_.get(), static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
     throw std::system_error(errno, std::generic_category(), "binding to the group");
   group_ = group.sin_addr;
@@ -71,8 +71,8 @@ bool LcmSocket::change_membership(int option, int interface) noexcept {
   return ::setsockopt(descriptor_.get(), IPPROTO_IP, option, &membership, sizeof membership) == 0;
 }
 
-// An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
-// one before.
+// For the system, an adapter that comes back with the same name and address is a new one. A membership on the old adapter receives
+// nothing.
 void LcmSocket::follow_route() {
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_ < std::chrono::milliseconds(kLookEvery_ms)) return;
@@ -89,24 +89,24 @@ void LcmSocket::follow_route() {
                group.data(), name.data());
 }
 
-// Who administers the network may go beyond the system's usual limit.
+// A process with CAP_NET_ADMIN may exceed the system's usual limit.
 void LcmSocket::enlarge_queue(int bytes) {
   if (::setsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
     ::setsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
 }
 
 int LcmSocket::queue_bytes() const noexcept {
-  int doubled = 0;  // Linux counts what it needs besides
+  int doubled = 0;  // Linux doubles the size for its own overhead
   socklen_t size = sizeof doubled;
   ::getsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUF, &doubled, &size);
   return doubled / 2;
 }
 
-// Before binding, so that nothing comes in unfiltered. The filter sees a datagram from its UDP header on.
+// Called before the socket is bound, so that nothing comes in unfiltered. The filter sees a datagram from its UDP header on.
 void LcmSocket::filter(bool this_machine_only) {
   const auto largest = static_cast<std::uint32_t>(largest_bytes_) + kUdpHeaderBytes;
   constexpr auto kAncillary = static_cast<std::uint32_t>(SKF_AD_OFF);
-  // What another machine sends is neither looped back nor on the loopback interface.
+  // A datagram from another machine is neither looped back nor on the loopback interface.
   std::array<sock_filter, 8> program{{BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0),
                                       BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, largest, 5, 0),
                                       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kAncillary + SKF_AD_PKTTYPE),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The socket that LCM's datagrams come in on. It hears one group on one interface: the one that the route to the group
-// names, which is also the one that LCM sends on. Datagrams to this machine's own address never reach it, and what is longer than
-// any message of ours the kernel drops before it takes room in the socket's queue. Memory is taken when it is made. When the adapter
-// was taken away and came back, or the route moved, it follows within a second and says so on standard error.
+// The socket that receives LCM's datagrams. It hears one group on one interface: that of the route to the group, on which LCM also
+// sends. Datagrams to this machine's own address never reach it. The kernel drops datagrams that are longer than any message of ours
+// before they take room in the queue. The constructor allocates all memory. When the adapter was removed and came back, or the route
+// moved, the socket follows within a second and reports it on standard error.
 #pragma once
 
 #include <netinet/in.h>
@@ -23,23 +23,23 @@ namespace strainwave {
 class LcmSocket {
  public:
   static constexpr std::size_t kBatch = 32;
-  /// Of the system's queue before it, for some hundred of the largest messages.
+  /// Size of the socket's queue in the system, enough for about a hundred of the largest messages.
   static constexpr int kQueueBytes = 1 << 20;
 
-  /// Joins the group. With a ttl of 0 nothing from another machine is heard, even where the route leads to a real
-  /// interface. `queue_bytes`: room for what comes between two calls; the system may give less, unless this
-  /// process administers the network. Throws std::system_error.
+  /// Joins the group. With a ttl of 0 the socket hears no other machine, even if the route leads to a real interface.
+  /// `queue_bytes`: room for the datagrams between two calls. The system may give less to a process without
+  /// CAP_NET_ADMIN. Throws std::system_error.
   LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes,
             int queue_bytes = kQueueBytes);
 
   int descriptor() const noexcept { return descriptor_.get(); }
-  /// What the system gave of the queue that was asked for.
+  /// Size of the queue that the system granted.
   int queue_bytes() const noexcept;
-  /// Call it so often at the least, also when nothing comes: looks where the route leads, and follows it.
-  /// It makes a socket, which the gateway may not.
+  /// Looks where the route leads, and follows it. Call it at least every kLookEvery_ms, even if no datagram arrives.
+  /// It makes a socket, which the confined gateway may not do.
   void follow_route();
   static constexpr int kLookEvery_ms = 500;
-  /// Hands at most kBatch datagrams that are here to `take`. Returns how many there were; never waits.
+  /// Hands at most kBatch datagrams of the queue to `take`. Returns their number; never waits.
   std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
 
  private:
@@ -50,7 +50,7 @@ class LcmSocket {
 
   UniqueFd descriptor_;
   in_addr group_{};
-  int interface_ = 0;  ///< index of the one that it hears the group on; 0: the system did not tell
+  int interface_ = 0;  ///< index of the interface of the group; 0: unknown
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
   std::size_t largest_bytes_;
   std::vector<std::uint8_t> buffers_;

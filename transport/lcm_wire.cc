@@ -59,7 +59,7 @@ LcmDatagram parse_fragment(Bytes datagram) noexcept {
     if (!channel || parsed.offset != 0) return {};
     parsed.channel = *channel;
   }
-  // In this order nothing can wrap.
+  // In this order, the subtraction cannot wrap around.
   if (parsed.offset > parsed.message_bytes) return {};
   if (parsed.part.size() > parsed.message_bytes - parsed.offset) return {};
   return parsed;

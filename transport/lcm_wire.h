@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One datagram of LCM's wire format over UDP multicast, read without trust. Allocates nothing and copies nothing: what it
-// returns points into the datagram. All numbers are big-endian.
+// Parses one untrusted datagram of LCM's wire format over UDP multicast. Allocates nothing and copies nothing: the result
+// points into the datagram. All numbers are big-endian.
 //
 //   short:    u32 0x4c433032 "LC02", u32 sequence, channel, 0, the message
 //   fragment: u32 0x4c433033 "LC03", u32 sequence, u32 size of the whole message, u32 offset of this part in it,
@@ -29,14 +29,14 @@ struct LcmDatagram {
   std::uint32_t sequence = 0;
   std::string_view channel;  ///< of a short message and of fragment 0; at most kMaxChannelLength
   std::span<const std::uint8_t> part;
-  // Of a fragment only; offset + part.size() <= message_bytes, number < count, fragment 0 has offset 0.
+  // For a fragment only; offset + part.size() <= message_bytes, number < count, fragment 0 has offset 0.
   std::uint32_t message_bytes = 0;
   std::uint32_t offset = 0;
   std::uint16_t number = 0;
   std::uint16_t count = 0;
 };
 
-/// Bytes of the longest datagram of a message of `message_bytes` that is sent whole or in fragments.
+/// Returns the size of the longest datagram of a message of `message_bytes`, sent whole or in fragments.
 constexpr std::size_t largest_datagram(std::size_t message_bytes) noexcept {
   return kLcmFragmentHeaderBytes + kMaxChannelLength + 1 + message_bytes;
 }

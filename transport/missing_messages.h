@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many messages of a sender did not come, by the numbers that LCM gives to what is sent from one source, one after the other. It does not
-// matter where they were lost. Bounded; allocates nothing after its start. Not real-time.
+// Counts the messages of a sender that did not arrive. LCM numbers the messages of each source consecutively, so it does not
+// matter where they were lost. Bounded; allocates only in its constructor. Not real-time.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace strainwave {
 class MissingMessages {
  public:
   static constexpr std::size_t kSources = 64;
-  /// A number farther off than this belongs to a new sender on an old port.
+  /// A larger step in the numbers means a new sender on an old port.
   static constexpr std::int32_t kFarthest = 1 << 24;
 
   MissingMessages() { sources_.reserve(kSources); }
 
-  /// A message came. Of sources beyond kSources nothing is known.
+  /// Notes a message that arrived. Sources beyond the first kSources are ignored.
   void heard(const LcmSource& from, std::uint32_t sequence) {
     Source* const known = find(from);
     if (known == nullptr) {
@@ -37,7 +37,7 @@ class MissingMessages {
     known->sent += static_cast<std::uint64_t>(step);
   }
 
-  /// Between the first message of `from` and its last. Copies of messages hide others.
+  /// Number of missing messages between the first message of `from` and its last. Duplicates hide missing ones.
   std::uint64_t of(const LcmSource& from) const noexcept {
     const auto known = std::ranges::find(sources_, from, &Source::from);
     return known == sources_.end() ? 0 : missing(*known);
@@ -51,7 +51,7 @@ class MissingMessages {
     std::uint32_t highest = 0;
     std::uint64_t sent = 0;
     std::uint64_t came = 0;
-    std::uint64_t before = 0;  ///< missing of earlier senders on this port
+    std::uint64_t before = 0;  ///< missing messages of earlier senders on this port
   };
   static std::uint64_t missing(const Source& source) noexcept {
     return source.before + (source.sent > source.came ? source.sent - source.came : 0);

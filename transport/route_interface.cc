@@ -41,7 +41,7 @@ Question question_of(const in_addr& group) noexcept {
 int route_interface(const in_addr& group) noexcept {
   const UniqueFd netlink(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   const Question question = question_of(group);
-  // The kernel has answered when send() returns.
+  // The kernel's answer is ready when send() returns.
   if (!netlink || ::send(netlink.get(), &question, sizeof question, 0) != sizeof question) return 0;
   std::array<std::uint8_t, 4096> answer{};
   const ssize_t size = ::recv(netlink.get(), answer.data(), answer.size(), MSG_DONTWAIT);

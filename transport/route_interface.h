@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which interface the system's routes lead a group's datagrams to. It changes when an adapter is taken away and comes back, also under
+// Finds the interface to which the system routes a group's datagrams. It changes when an adapter is removed and comes back, even with
 // the same name and address, and when a route moves. Not real-time.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace strainwave {
 
-/// Its index; 0: there is no route at present, or the system does not tell.
+/// Returns the interface's index; 0: there is no route at present, or the system does not name it.
 int route_interface(const in_addr& group) noexcept;
 
 }  // namespace strainwave
