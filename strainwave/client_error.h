@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can go wrong between a program and a joint: one type for each thing that a program may want to do about it. Not real-time.
+// Errors between a program and a joint: one type for each reaction that a program may need. Not real-time.
 #pragma once
 
 #include <optional>
@@ -12,31 +12,31 @@
 
 namespace strainwave {
 
-/// What made a joint let go (docs/faults.md, "Contact"), joint side.
+/// The load to which a joint yielded (docs/faults.md, "Contact"), joint side.
 struct YieldedTo {
   double load_Nm = 0.0;       ///< > 0 pushes towards negative positions
-  double limit_Nm = 0.0;      ///< what load was allowed
-  double position_rad = 0.0;  ///< where the joint was
+  double limit_Nm = 0.0;      ///< load that was allowed
+  double position_rad = 0.0;  ///< position of the joint
 };
 
-/// Any of the following. what() is the whole sentence for the user: what was given, what is allowed or what the daemon answered,
-/// what to do.
+/// Base of all following errors. what() is a complete sentence for the user: the input, what is allowed or what the daemon
+/// answered, and the remedy.
 class ClientError : public ProgramError {
  public:
-  /// As a program needs it. Empty, or nothing: not known, or of none.
+  /// Details for a program. An empty or missing value is unknown, or does not apply.
   struct Details {
     std::string joint;
     std::optional<Reason> reason;   ///< why the daemon refused
-    std::optional<Fault> fault;     ///< that the joint has
-    std::vector<ClientError> each;  ///< what went wrong with each of several joints; all else is of the first
+    std::optional<Fault> fault;     ///< fault of the joint
+    std::vector<ClientError> each;  ///< one error per joint; all other details are of the first
     std::optional<YieldedTo> yielded_to;
   };
   ClientError(ExitStatus status, const std::string& message, Details details = {})
       : ProgramError(status, message), details_(std::move(details)) {}
   const Details& details() const noexcept { return details_; }
-  /// The same in other words.
+  /// Returns the same error with another message.
   ClientError in_words(const std::string& message) const { return {status(), message, details_}; }
-  /// The same of `joint`, if it is not known yet whose it is.
+  /// Returns the same error, of `joint` if it names no joint yet.
   ClientError of(const std::string& joint) const {
     Details details = details_;
     if (details.joint.empty() && details.each.empty()) details.joint = joint;
@@ -47,14 +47,14 @@ class ClientError : public ProgramError {
   Details details_;
 };
 
-/// Refused here, before anything was sent: a name, a number, a key file.
+/// The client refused a name, a number or a key file before it sent anything.
 class InvalidInput : public ClientError {
  public:
   explicit InvalidInput(const std::string& message, const std::string& joint = "")
       : ClientError(ExitStatus::kUsage, message, {joint, {}, {}, {}, {}}) {}
 };
 
-/// No daemon, no such joint, silence, or a network without multicast. Whether an order was carried out is not known.
+/// No daemon, no such joint, silence, or a network without multicast. It is not known whether an order was carried out.
 class NoAnswer : public ClientError {
  public:
   explicit NoAnswer(const std::string& message, const std::string& joint = "")
@@ -69,7 +69,7 @@ class Refused : public ClientError {
   Reason reason() const noexcept { return *details().reason; }
 };
 
-/// The joint has a latched fault. `each`: of several joints what stopped each, a Faulted or a Yielded.
+/// The joint has a latched fault. `each`: for several joints, the error that stopped each, a Faulted or a Yielded.
 class Faulted : public ClientError {
  public:
   Faulted(const std::string& message, const std::string& joint, Fault fault,
@@ -89,7 +89,7 @@ class NotDone : public ClientError {
       : ClientError(ExitStatus::kRefused, message, std::move(details)) {}
 };
 
-/// The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests. `each`: of several joints that did.
+/// The joint yielded to a load, which ended its motion. It has no fault, and holds as soon as it rests. `each`: one error per joint.
 class Yielded : public NotDone {
  public:
   Yielded(const std::string& message, const std::string& joint, const YieldedTo& to,

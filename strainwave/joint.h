@@ -7,8 +7,8 @@
 //     joint.enable();
 //     joint.move(0.5);
 //
-// All that fails throws a ClientError (client_error.h). One call at a time: a call from another thread waits for the one before. A second
-// Joint of the same name is independent of the first, and the same owner: that is how another thread stops a motion that is waited for.
+// Every failure throws a ClientError (client_error.h). Calls run one at a time: a call from another thread waits for the one before. A
+// second Joint of the same name is independent but has the same owner. With it, another thread can stop a motion during its move().
 #pragma once
 
 #include <filesystem>
@@ -25,20 +25,19 @@
 namespace strainwave {
 
 struct JointOptions {
-  /// File of the secret key (strainwavectl keygen), "~/" is the home folder; nothing: what STRAINWAVE_KEY names. With an empty name, or
-  /// neither, orders go out unsigned.
+  /// File of the secret key (strainwavectl keygen); "~/" is the home folder. Without a value, STRAINWAVE_KEY names the file. With an empty
+  /// name, or without both, orders are unsigned.
   std::optional<std::filesystem::path> key = {};
-  std::string prefix = "SW";  ///< the daemon's
-  std::string lcm_url = {};   ///< empty: what LCM_DEFAULT_URL says, or LCM's usual one on this machine
-  double timeout_s =
-      2.0;  ///< of every single wait: for a state, for an answer, for a change of mode; 0.1 to 3600
+  std::string prefix = "SW";  ///< the daemon's prefix
+  std::string lcm_url = {};   ///< empty: that of LCM_DEFAULT_URL, else LCM's usual one on this machine
+  double timeout_s = 2.0;     ///< for each single wait: for a state, an answer, a change of mode; 0.1 to 3600
 };
 
 class JointLink;
 
 class Joint {
  public:
-  /// `name`: the joint's in the daemon's configuration. Throws InvalidInput, NoAnswer (LCM is not available).
+  /// `name`: the joint's name in the daemon's configuration. Throws InvalidInput, NoAnswer (LCM is not available).
   explicit Joint(const std::string& name, const JointOptions& options = {});
   ~Joint();
   Joint(Joint&&) noexcept;
@@ -48,32 +47,32 @@ class Joint {
 
   const std::string& name() const noexcept;
 
-  /// The latest; waits for the first. Throws NoAnswer, also when the joint has been silent for `timeout_s`.
+  /// Returns the latest state; waits for the first. Throws NoAnswer, also when the joint has been silent for `timeout_s`.
   State state();
 
-  /// Constant while the daemon runs; waits for the first, which may take a second.
+  /// Returns the limits, which are constant while the daemon runs. Waits for the first message, which may take a second.
   Limits limits();
 
   /// Calls `visit` for every state that comes, in order, for `duration_s`. A caller that is too slow sees gaps in `cycle`.
   void states(double duration_s, const std::function<void(const State&)>& visit);
 
-  /// Switches the drive on; returns once the joint holds. What is so already is no error, and nothing is sent for it.
+  /// Switches the drive on; returns once the joint holds. If the drive is on already, nothing is sent, and it is no error.
   void enable();
-  /// Stops and switches the drive off; returns once it is. Needs no key, and waits for no state before it is sent.
+  /// Stops the joint and switches the drive off; returns once it is off. Needs no key, and is sent without waiting for a state.
   void disable();
-  /// Stops where the joint comes to rest; returns once it holds. Needs no key, either.
+  /// Stops the joint; returns once it holds where it came to rest. Needs no key.
   void hold();
-  /// Leaves a latched fault, to off. A joint without one is left alone.
+  /// Clears a latched fault; the joint is off then. Does nothing without a fault.
   void clear_fault();
   /// Finds the home position; returns once the joint holds there.
   void home();
-  /// Makes this user the owner of the joint, also where another client owns it. Needs the role engineer.
+  /// Makes this user the owner of the joint, even if another client owns it. Needs the role engineer.
   void take_over();
-  /// Gives the joint up before its lease ends: it has no owner.
+  /// Gives up the ownership of the joint before the lease ends. The joint then has no owner.
   void release();
-  /// Forgets the learned friction and load: the joint takes its table's friction. It must hold or be off.
+  /// Forgets the learned friction and load: the joint uses its table's friction. It must hold or be off.
   void reset_learning();
-  /// What was learned stays in use and changes no more, until resume_learning() or a restart of the daemon.
+  /// Keeps the learned values in use but unchanged, until resume_learning() or a restart of the daemon.
   void freeze_learning();
   /// The joint learns again.
   void resume_learning();
@@ -82,7 +81,7 @@ class Joint {
   /// hold() does.
   Arrival move(double position_rad) { return move(MoveOrder{.position_rad = position_rad}); }
   Arrival move(const MoveOrder& order);
-  /// The same, but returns at once: the joint is on its way.
+  /// Starts the same motion, but returns at once.
   void start_move(const MoveOrder& order);
 
   /// A stream of setpoints. Nothing moves before its first put().

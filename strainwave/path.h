@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths". Not real-time.
+// A path: a motion of one or several joints that the daemon checks before it begins. docs/streams.md, "Paths". Not real-time.
 //
 //     strainwave::Path path({{elbow, {{0, 0, 0}, {0.5, 0.2, 0.6}, {1, 0.4, 0}}}, {wrist, {{0, 0, 0}, {1, -0.2, 0}}}});
 //     path.start();
@@ -16,19 +16,19 @@
 
 namespace strainwave {
 
-/// What one joint does on a path.
+/// The motion of one joint on a path.
 struct PathPart {
   const Joint& joint;
-  /// 2 to 320: time_s from 0 on, position_rad, velocity_rad_s, 0 in the first and the last. Between them it goes along cubics.
+  /// 2 to 320 knots: time_s begins at 0, velocity_rad_s is 0 in the first and the last. Between knots the joint follows cubics.
   std::vector<JointKnot> knots;
 };
 
 struct JointPath;
 
-/// Orders go out with the options of its first joint. Goes on when this object or the program ends. Throws ClientError.
+/// All orders use the options of the first joint. The motion goes on when this object or the program ends. Throws ClientError.
 class Path {
  public:
-  /// Nothing moves before start(). Throws InvalidInput: no joint, one twice, joints of two daemons, numbers that are none.
+  /// Nothing moves before start(). Throws InvalidInput: no joint, one joint twice, joints of two daemons, numbers that are not finite.
   explicit Path(const std::vector<PathPart>& parts);
   ~Path();
   Path(Path&&) noexcept;
@@ -36,27 +36,26 @@ class Path {
   Path(const Path&) = delete;
   Path& operator=(const Path&) = delete;
 
-  /// All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Throws Refused, which names knot and limit
-  /// when the path asks for more than a joint can do.
+  /// Starts all joints in one cycle, or none: each must hold within 1 mrad of its first knot. Throws Refused, which names knot and limit
+  /// when the path exceeds a joint's limits.
   void start();
-  /// Stops on the path, with all joints, as quickly as their accelerations allow.
+  /// Stops all joints on the path, as quickly as their acceleration limits allow.
   void pause();
-  /// Goes on after a pause.
+  /// Continues the path after a pause.
   void resume();
   /// Ends the path: each joint stops within its own limits, off the path. Returns once they hold. Needs no key.
   void hold();
-  /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Waits
-  /// while the path is paused, too: see State::has(Notice::kPathPaused) and State::path_time_s. Throws Faulted, NoAnswer, and
-  /// NotDone: after `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
-  /// Of a path that another program started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at
-  /// its end.
+  /// Waits until every joint is within `tolerance_rad` of its last knot and stays there. Returns one Arrival per part, timed from now. Also
+  /// waits while the path is paused: see State::has(Notice::kPathPaused) and State::path_time_s. Throws Faulted, NoAnswer, and NotDone:
+  /// after `timeout_s`, with the path's time and whether it is paused, or if something else ended the path. Can also wait for a path that
+  /// another program started, while it is under way. If no path is under way, throws NotDone soon, even if the joints stand at its end.
   std::vector<Arrival> wait(double tolerance_rad = 1e-3,
                             double timeout_s = std::numeric_limits<double>::infinity());
 
  private:
   JointLink& first() { return *links_.front(); }
-  /// Of those that are not on their way to this path's end the first; null: it is under way. Joints that stand at its end may have come
-  /// there in any way.
+  /// Returns the first joint that is not on its way to this path's end; null: the path is under way. It is not under way if all joints
+  /// stand at its end, since another motion may have brought them there.
   const JointPath* joint_elsewhere();
   void check_under_way();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a program ends that can do nothing about it, and with which status.
+// An error that ends a program, with the exit status.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// what() is the whole sentence for the user.
+/// what() is a complete sentence for the user.
 class ProgramError : public std::runtime_error {
  public:
   ProgramError(ExitStatus status, const std::string& message)

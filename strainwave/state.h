@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the daemon publishes of a joint, with numbers by name. The fields are those of docs/messages.md, joint side, SI. Not real-time.
+// Messages of the daemon about a joint, with enumerations for codes. docs/messages.md lists the fields: joint side, SI. Not real-time.
 #pragma once
 
 #include <chrono>
@@ -21,17 +21,17 @@ struct State : state_v1 {
   TemperatureStatus temperature_status;
   std::chrono::steady_clock::time_point received;  ///< by this machine's clock
 
-  /// Whether the limit is in force.
+  /// Whether `notice` is set.
   bool has(Notice notice) const noexcept { return (notices & static_cast<std::int32_t>(notice)) != 0; }
 
   /// Weights of the temperature rules, as many as the table has.
   std::span<const double> weights() const noexcept;
 
-  /// Where the joint should be read in this cycle, less where it is read.
+  /// Returns the position setpoint of this cycle minus the measured position.
   double tracking_error_rad() const noexcept;
 };
 
-/// limits_v1: what the joint is and how far it may go.
+/// limits_v1: the data and the limits of the joint.
 struct Limits : limits_v1 {
   explicit Limits(const limits_v1& message);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers that travel in messages and what they mean: modes, faults, notices, reasons, actions. A number, once
-// published, is never given another meaning. Texts are for people; programs compare numbers. Real-time safe: the texts
-// are constants. docs/faults.md and docs/messages.md explain each.
+// The codes in messages and their meaning: modes, faults, notices, reasons, actions. A published number never gets
+// another meaning. Texts are for people; programs compare numbers. Real-time safe: the texts are constants.
+// docs/faults.md and docs/messages.md explain each.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ enum class Fault : std::int32_t {
   kChatter = 26,
 };
 
-/// state_v1.notices: a bit set; the joint goes on, limited; kYielded tells of what has been.
+/// state_v1.notices: a bit set. The joint goes on, but with limits. kYielded reports a past event.
 enum class Notice : std::int32_t {
   kTorqueLimited = 1 << 0,
   kTemperatureClamped = 1 << 1,
@@ -147,7 +147,7 @@ std::string_view to_text(Reason reason) noexcept;
 std::string_view to_text(Action action) noexcept;
 std::string_view to_text(TemperatureStatus status) noexcept;
 
-/// Where the limit behind a fault or notice is configured ("joint.limits.torque_limit_Nm"); empty when nothing can be set.
+/// Returns the configuration key of the limit behind a fault or notice ("joint.limits.torque_limit_Nm"); empty when there is none.
 std::string_view configuration_key(Fault fault) noexcept;
 std::string_view configuration_key(Notice notice) noexcept;
 
