@@ -70,7 +70,7 @@ void FaultyActuator::falsify_position(ActuatorReading& reading) noexcept {
   if (of(InjectedFault::kSensorNan).on) reading.joint_position_rad = std::numeric_limits<double>::quiet_NaN();
 }
 
-// A delay line that was empty when the fault began: it shows the first value until it has filled.
+// The delay line is empty when the fault begins. Until it is full, it returns its first value.
 void FaultyActuator::delay_position(ActuatorReading& reading, const Active& delay) noexcept {
   if (!delay.begun) past_count_ = 0;
   constexpr std::int64_t kCapacity = kMaxSensorDelayPeriods;

@@ -52,7 +52,7 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
 
 ActuatorReading SimulatedActuator::read(std::int64_t now_ns) noexcept {
   if (!lived_until_ns_) temperature_produced_ns_ = *(lived_until_ns_ = now_ns);
-  // To the nearest whole period: whoever reads once a period is not quite even.
+  // Rounds to the nearest whole period because the caller's period has jitter.
   while (now_ns - *lived_until_ns_ > period_ns_ / 2) {
     *lived_until_ns_ += period_ns_;
     live_through_period();

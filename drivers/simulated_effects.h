@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effects of the simulated joint, from the daemon's configuration. Not real-time.
+// Reads the effects of the simulated joint from the daemon's configuration. Not real-time.
 #pragma once
 
 #include "base/toml_section.h"

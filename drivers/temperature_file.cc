@@ -24,9 +24,9 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 256;  // a w1_slave has about 75
+constexpr std::size_t kMaxBytes = 256;  // a w1_slave file has about 75 bytes
 constexpr std::string_view kWhitespace = " \t\n";
-/// What a DS18B20 shows until its first conversion, and after a loss of supply.
+/// A DS18B20 reports this value until its first conversion and after a loss of supply.
 constexpr double kOneWirePowerOn_mC = 85000.0;
 constexpr double kNearPowerOn_C = 2.0;
 
@@ -86,7 +86,7 @@ TemperatureFile::TemperatureFile(const TemperatureFileConfig& config) : config_(
 TemperatureFile::~TemperatureFile() = default;
 
 void TemperatureFile::run(const std::stop_token& stop) {
-  // Whoever made this object may be real-time or take signals; this thread must be neither.
+  // The creating thread may be real-time or handle signals; this thread must do neither.
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);
   sigset_t all;
@@ -101,7 +101,7 @@ void TemperatureFile::run(const std::stop_token& stop) {
 
 void TemperatureFile::read_once() {
   const std::int64_t began_ns = config_.clock_ns();
-  // Opened anew each time: a sensor that was unplugged comes back as another file of the same name.
+  // The file is opened for each read: a reconnected sensor appears as a new file with the same name.
   const UniqueFd file = open_file(config_.file);
   std::array<char, kMaxBytes> bytes{};
   const ssize_t size = !file ? -1 : ::read(file.get(), bytes.data(), bytes.size());
@@ -117,7 +117,7 @@ void TemperatureFile::read_once() {
   shared_.put({temperature_C, began_ns, true});
 }
 
-// Exactly 85 degC is believed only of a sensor that was about as hot before.
+// A reading of exactly 85 degC is accepted only if the previous value was close to it.
 bool TemperatureFile::is_power_on_value(double number, double temperature_C) const noexcept {
   return config_.kind == TemperatureFileKind::kOneWire && number == kOneWirePowerOn_mC &&
          !(last_C_ && std::abs(*last_C_ - temperature_C) < kNearPowerOn_C);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive whose temperature is measured beside it: holds another Actuator and replaces the drive's temperature by that of a
-// file. All but the constructor is real-time safe.
+// A drive with a separate temperature sensor: it holds another Actuator and replaces the temperature of the
+// drive by that of a file. Everything but the constructor is real-time safe.
 #pragma once
 
 #include <memory>

@@ -46,12 +46,12 @@ void CanBus::take(const ReceivedFrame& received) noexcept {
   if (owner >= 0)
     return nodes_[static_cast<std::size_t>(owner)]->receive(received.frame, received.kernel_time_ns);
   if (owner == kOthersSync) return note_sync(received.kernel_time_ns);
-  // Two masters on one drive, or two producers of SYNC: neither knows what the drive does.
+  // Two masters of one drive, or two SYNC producers: neither knows what the drive does.
   if (owner == kOurs) latch(ActuatorFault::kWriteRefused, CanDetail::kForeignSender, received.frame.id);
 }
 
-// The heartbeat has the last priority: a full period may delay it without any harm, so it holds back only itself. What was sent
-// before it has left when it has, whether we were told so or not.
+// The heartbeat has the lowest priority. A full period may delay it without harm, so a waiting heartbeat does not hold back other
+// frames. The bus keeps the order of frames: those sent before a returned heartbeat have left, even without an echo.
 void CanBus::take_own(const ReceivedFrame& received) noexcept {
   if (received.frame.id == canopen::sync_frame().id) note_sync(received.kernel_time_ns);
   for (const auto& node : nodes_) node->note_own(received.frame, received.kernel_time_ns);
@@ -70,7 +70,7 @@ void CanBus::note_sync(std::int64_t kernel_time_ns) noexcept {
 void CanBus::take_link(CanLink link) noexcept {
   if (link == CanLink::kUp) return;
   link_gone_ = link_gone_ || link == CanLink::kGone;
-  // An interface that goes down forgets what waited in it, and its controller begins anew.
+  // An interface that goes down discards its queue, and its controller starts anew.
   outstanding_ = 0;
   heartbeat_waits_ = false;
   bus_off_ = false;
@@ -80,7 +80,7 @@ void CanBus::take_link(CanLink link) noexcept {
 void CanBus::take_troubles(std::uint32_t troubles) noexcept {
   add(counters_.error_frames);
   if (has(troubles, CanTrouble::kRestarted)) {
-    // A controller that begins anew has forgotten what it held, and nobody tells us of it.
+    // A restarted controller has discarded its frames without a report.
     bus_off_ = false;
     outstanding_ = 0;
     heartbeat_waits_ = false;
@@ -98,16 +98,16 @@ void CanBus::account_outstanding(bool emptied) noexcept {
   if (overflows != overflows_seen_) {
     add(counters_.frames_lost, static_cast<std::uint32_t>(overflows - overflows_seen_));
     overflows_seen_ = overflows;
-    // Among the lost may be our own that came back; nobody can tell any more.
+    // The lost frames may include our own echoes, so the counts of waiting frames are unknown.
     if (emptied) {
       outstanding_ = 0;
       heartbeat_waits_ = false;
     }
   }
-  // What cannot be taken in one period is old before it is used.
+  // Frames that do not fit into one period are too old when they are used.
   flooded_periods_ = emptied ? 0 : flooded_periods_ + 1;
   if (flooded_periods_ >= config_.stuck_periods) latch(ActuatorFault::kBusError, CanDetail::kFlooded);
-  // Adapters on USB tell of a frame up to a period late; what is older than that has not left.
+  // USB adapters report a sent frame up to a period late; older frames are still waiting.
   held_back_ = outstanding_ > sent_last_period_;
   sent_last_period_ = 0;
   held_back_periods_ = held_back_ ? held_back_periods_ + 1 : 0;
@@ -123,7 +123,7 @@ void CanBus::end_cycle() noexcept {
   dropped_ = false;
   for (const auto& node : nodes_) node->transmit(*this);
   if (config_.sync == SyncProducer::kDaemon) (void)send(canopen::sync_frame());
-  // One that has waited for a whole period of its own while everything else came back is not waiting: we were not told of it.
+  // A heartbeat that seems to wait for its whole period while other frames came back was sent; only its echo is missing.
   const bool due = config_.heartbeat_period_s > 0.0 && now_ns_ >= heartbeat_due_ns_;
   if (due && !heartbeat_withdrawn() && (!heartbeat_waits_ || outstanding_ <= sent_last_period_))
     send_heartbeat();
@@ -149,7 +149,7 @@ bool CanBus::send(const CanFrame& frame) noexcept {
   }
   switch (port_->send(frame)) {
     case SendResult::kSent:
-      // What passes no filter of ours never comes back.
+      // Frames that pass none of our filters do not come back.
       if (owner_[frame.id] == kOurs && frame.id != our_heartbeat_id() && !frame.remote) {
         ++outstanding_;
         ++sent_last_period_;
@@ -170,7 +170,7 @@ bool CanBus::send(const CanFrame& frame) noexcept {
 
 void CanBus::try_recover() noexcept {
   if (trouble_.fault == ActuatorFault::kNone || link_gone_ || bus_off_ || held_back_) return;
-  // The first frame shows whether the link is there; it orders nothing.
+  // The first frame shows whether the link works; a heartbeat orders nothing.
   if (config_.heartbeat_period_s > 0.0) {
     send_heartbeat();
     if (!heartbeat_waits_) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of can_bus.h that runs outside the loop.
+// The part of CanBus that runs outside the loop.
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::milliseconds kServeEvery{20};
 constexpr std::int64_t kTellEvery_ns = 10'000'000'000;
 
-/// Sends our heartbeat while it waits, once the loop that sent it is `over`. Before that a loop that hangs must be missed.
+/// Sends our heartbeat during wait(), once the loop that sent it is `over`. Before that the drives must notice a loop that hangs.
 class HeartbeatPort final : public CanPort {
  public:
   HeartbeatPort(CanPort& port, const CanBusConfig& config, const std::atomic<bool>& over)
@@ -107,12 +107,12 @@ void CanBus::close() {
   ending_.store(true, std::memory_order_release);
   for (const auto& node : nodes_) node->end_operation(*port_);
   if (background_.joinable()) background_.join();
-  // Drives whose answers take long must not miss our heartbeat before they have been told that it ends.
+  // Drives that answer slowly must receive our heartbeat until they have been told that it ends.
   HeartbeatPort port(*setup_port_, config_, ending_);
   for (const auto& node : nodes_) node->shut_down(port);
 }
 
-// All nodes, so that one run tells everything that is wrong.
+// Sets up all nodes, so that one run reports every problem.
 void CanBus::set_up_nodes(const CanPortFactory& open) {
   std::string failures;
   const auto attempt = [&](const auto& action) {
@@ -124,11 +124,11 @@ void CanBus::set_up_nodes(const CanPortFactory& open) {
   };
   for (const auto& node : nodes_) attempt([&] { say(node->set_up(*setup_port_)); });
   if (failures.empty()) {
-    // A port of its own: the one for set-up would later be filled by frames that only the loop takes.
+    // Verification has its own port: in the one for set-up, frames for the loop would pile up later.
     CanPortOptions options;
     for (const auto& node : nodes_)
       for (const std::uint32_t id : node->receive_ids()) options.receive_ids.push_back(id);
-    // When a SYNC of ours was on the bus.
+    // Own frames come back so that verification knows when our SYNC was on the bus.
     options.own_frames = config_.sync == SyncProducer::kDaemon;
     if (options.own_frames) options.receive_ids.push_back(canopen::cob_id(canopen::CobId::kSync));
     const std::unique_ptr<CanPort> port = open(options);
@@ -183,7 +183,7 @@ std::vector<std::string> CanBus::take_messages() {
 }
 
 void CanBus::serve() {
-  // The end may come while a drive is waited for.
+  // close() may come while this thread waits for a drive.
   HeartbeatPort port(*setup_port_, config_, ending_);
   for (const auto& node : nodes_) {
     if (ending_.load(std::memory_order_acquire)) return;
@@ -193,7 +193,7 @@ void CanBus::serve() {
   tell_losses();
 }
 
-// Losses that do no harm yet are worth a line now and then.
+// Reports at intervals losses that are no fault yet.
 void CanBus::tell_losses() {
   const std::int64_t dropped = counters_.frames_dropped.load(std::memory_order_relaxed);
   const std::int64_t lost = counters_.frames_lost.load(std::memory_order_relaxed);

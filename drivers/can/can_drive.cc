@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-/// Besides a period's orders and SYNC: a heartbeat, an SDO and its abort.
+/// Frames in addition to a period's orders and SYNC: a heartbeat, an SDO and its abort.
 constexpr int kSpareFrames = 3;
 
 std::unique_ptr<CanNode> make_node(const cia402::DriveConfig& drive) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive on a CAN bus by its configuration, of whatever protocol, and the bus of several. Not real-time.
+// A drive on a CAN bus, of any protocol, from its configuration, and a bus of several drives. Not real-time.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace strainwave {
 
 using CanDrive = std::variant<cia402::DriveConfig, odrive::DriveConfig>;
 
-/// In the order of `drives`. Touches no hardware.
+/// Returns the nodes in the order of `drives`. Does not access hardware.
 std::vector<std::unique_ptr<CanNode>> make_nodes(const std::vector<CanDrive>& drives);
 
-/// Looks at the interface and sets every drive up. Throws InputError that names every drive that refused.
+/// Checks the interface and sets up every drive. Throws InputError with every drive that failed.
 std::unique_ptr<Fieldbus> open_can_bus(const CanBusConfig& config, const std::vector<CanDrive>& drives);
 
 }  // namespace strainwave

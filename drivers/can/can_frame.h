@@ -13,16 +13,16 @@ inline constexpr std::uint32_t kMaxCanId = 0x7FF;
 inline constexpr std::size_t kMaxCanBytes = 8;
 
 struct CanFrame {
-  std::uint32_t id = 0;                            ///< 0..kMaxCanId; the lowest wins the bus
+  std::uint32_t id = 0;                            ///< 0..kMaxCanId; the lowest has the highest priority
   std::uint8_t size = 0;                           ///< 0..kMaxCanBytes
-  std::array<std::uint8_t, kMaxCanBytes> bytes{};  ///< beyond size: 0
-  bool remote = false;  ///< asks for the frame instead of carrying it; only ever sent
+  std::array<std::uint8_t, kMaxCanBytes> bytes{};  ///< bytes beyond size are 0
+  bool remote = false;  ///< remote frame: requests a frame and carries no data; never received
 
   bool operator==(const CanFrame&) const = default;
   std::span<const std::uint8_t> payload() const noexcept { return {bytes.data(), size}; }
 };
 
-/// The little-endian number of `count` <= 8 bytes that begins at `bytes`.
+/// Reads a little-endian number of `count` <= 8 bytes from `bytes`.
 constexpr std::uint64_t little_endian(const std::uint8_t* bytes, std::size_t count) noexcept {
   std::uint64_t value = 0;
   for (std::size_t i = count; i-- > 0;) value = (value << 8U) | bytes[i];

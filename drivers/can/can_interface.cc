@@ -25,14 +25,14 @@ namespace strainwave {
 
 namespace {
 
-/// Resynchronization bears about 1 % between two nodes (ISO 11898-1): a node's half of it.
+/// Resynchronization tolerates about 1 % between two nodes (ISO 11898-1); each node may use half of it.
 constexpr double kRateTolerance = 0.005;
 /// NLA_TYPE_MASK, which is negative as an int.
 constexpr std::uint16_t kTypeMask = 0x3FFF;
 
 using AttributeVisitor = std::function<void(std::uint16_t type, std::span<const std::byte> value)>;
 
-/// Calls `visit` for each attribute; a length that does not fit ends the walk.
+/// Calls `visit` for each attribute; stops at a length that does not fit.
 void walk_attributes(std::span<const std::byte> bytes, const AttributeVisitor& visit) {
   while (bytes.size() >= sizeof(rtattr)) {
     rtattr header{};
@@ -65,7 +65,7 @@ bool ask(int socket, unsigned long request, const std::string& name, ifreq& answ
   return ::ioctl(socket, request, &answer) == 0;
 }
 
-// The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays unknown.
+// Only netlink reports the bit rate. A service that may not open such sockets leaves it unknown.
 void ask_netlink(const std::string& name, CanInterface& interface) {
   const UniqueFd socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   if (socket.get() < 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One drive on a CAN bus, of whatever protocol: what the bus calls besides the four functions of Actuator.
+// One drive on a CAN bus, of any protocol: the functions that the bus calls in addition to those of Actuator.
 // See can_bus.h for the order of calls.
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace strainwave {
 
-/// What a node may do with its bus while the loop runs. Real-time safe.
+/// What a node may do with its bus in the loop. Real-time safe.
 class CanTransmitter {
  public:
   virtual ~CanTransmitter() = default;
-  /// False: the frame was dropped, because the bus did not take the last period's frames or is not there.
+  /// Returns false when the frame was dropped: the bus did not take the last period's frames, or is not there.
   virtual bool send(const CanFrame& frame) noexcept = 0;
 };
 
@@ -30,42 +30,42 @@ struct NodeFault {
 
 class CanNode : public Actuator {
  public:
-  // Before the loop, and on the bus's background thread: these may block, allocate, and throw InputError.
+  // Called before the loop and on the background thread of the bus: may block, allocate, and throw InputError.
 
   virtual const std::string& name() const noexcept = 0;
-  /// Identifiers that the node's frames have in the loop, and those that only we may send.
+  /// Identifiers of the frames that the node sends in the loop, and identifiers that only we may send.
   virtual std::vector<std::uint32_t> receive_ids() const = 0;
   virtual std::vector<std::uint32_t> transmit_ids() const = 0;
   /// Identifiers of answers during set-up.
   virtual std::vector<std::uint32_t> setup_ids() const = 0;
-  /// All that it and we send on its behalf.
+  /// All frames that the drive sends, and those that we send to it.
   virtual std::vector<FrameTraffic> traffic() const = 0;
   /// Finds, checks and configures the drive, which stays disabled. Returns lines for the log.
   virtual std::vector<std::string> set_up(CanPort& port) = 0;
-  /// Sees that the configured drive sends what the loop needs. Returns lines for the log.
+  /// Checks that the configured drive sends what the loop needs. Returns lines for the log.
   virtual std::vector<std::string> verify(CanPort& port) = 0;
-  /// A turn of the bus's background thread: slow readings, a set-up that clear_fault() asked for. Returns
-  /// lines for the log.
+  /// Runs on the background thread of the bus: slow readings, and the set-up that clear_fault() requested.
+  /// Returns lines for the log.
   virtual std::vector<std::string> serve(CanPort& port) = 0;
-  /// Right after the last cycle: the drive must not miss our frames any more. Never waits.
+  /// Called right after the last cycle, so that the drive no longer expects our frames. Never waits.
   virtual void end_operation(CanPort& /*port*/) noexcept {}
-  /// After that: leaves the drive disabled, in order. Does not throw.
+  /// Called after end_operation(): leaves the drive disabled. Does not throw.
   virtual void shut_down(CanPort& port) noexcept = 0;
 
-  // In the loop, real-time safe, besides read(), write(), stop() and clear_fault(), which only look and note.
+  // The loop calls these in addition to read(), write(), stop() and clear_fault(), which send nothing. All are real-time safe.
 
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;
-  /// A SYNC was on the bus, at this time of the kernel; 0: unknown.
+  /// A SYNC was on the bus at this kernel time; 0: unknown.
   virtual void note_sync(std::int64_t /*kernel_time_ns*/) noexcept {}
-  /// A frame of ours has gone out, at this time of the kernel; 0: unknown.
+  /// Our frame went out at this kernel time; 0: unknown.
   virtual void note_own(const CanFrame& /*frame*/, std::int64_t /*kernel_time_ns*/) noexcept {}
-  /// A data frame with one of receive_ids(), and when the kernel saw it. Untrusted.
+  /// Takes a data frame with one of receive_ids() and its kernel time. The content is untrusted.
   virtual void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept = 0;
-  /// The bus itself is in trouble: told each cycle, between the frames and read(); kNone when it is not.
+  /// Reports the fault of the bus itself, kNone when there is none. Called each cycle between receive() and read().
   virtual void note_bus(const NodeFault& trouble) noexcept = 0;
-  /// Sends this period's frames, after every joint wrote.
+  /// Sends the frames of this period, after every joint wrote.
   virtual void transmit(CanTransmitter& bus) noexcept = 0;
-  /// Our heartbeat must end: the drive has torque, obeys nothing, and will stop only for want of it.
+  /// Returns true when our heartbeat must end: the drive has torque, obeys no order, and stops only without the heartbeat.
   virtual bool withdraws_heartbeat() const noexcept { return false; }
 };
 

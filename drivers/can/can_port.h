@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the CAN drivers need of a bus: to send, to take what has arrived, and, before the loop runs, to wait.
-// CanSocket is the real one; tests script another in virtual time. send() and receive() are real-time safe;
-// wait() and now_ns() are for start-up and background threads only.
+// What the CAN drivers need from a bus: to send, to receive, and, outside the loop, to wait. CanSocket is the
+// real port; tests use a scripted one in virtual time. send() and receive() are real-time safe. Only start-up
+// and background threads may call wait() and now_ns().
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,32 @@
 
 namespace strainwave {
 
-/// What a port lets through, and what it tells about itself.
+/// Which frames a port receives, and how it sends.
 struct CanPortOptions {
-  std::vector<std::uint32_t> receive_ids;  ///< exactly these; own frames need their id here as well
-  bool error_frames = false;               ///< the controller's troubles arrive as frames of kind kTrouble
+  std::vector<std::uint32_t> receive_ids;  ///< only these; own frames need their identifier here as well
+  bool error_frames = false;               ///< the controller's errors arrive as frames of kind kTrouble
   bool own_frames = false;  ///< every frame sent comes back, as kind kOwn, once it is on the bus
   bool urgent = false;      ///< overtakes other processes' frames in the interface's queue
 };
 
-/// Troubles of controller and bus, a bit set. Source: linux/can/error.h.
+/// Errors of controller and bus, as a bit set. Source: linux/can/error.h.
 enum class CanTrouble : std::uint32_t {
   kBusOff = 1U << 0,           ///< the controller has left the bus after too many errors
   kErrorPassive = 1U << 1,     ///< more than 127 errors counted
   kErrorWarning = 1U << 2,     ///< more than 96
   kReceiveOverflow = 1U << 3,  ///< the controller lost frames
-  kNoAcknowledge = 1U << 4,    ///< nobody else hears
-  kTransmitTimeout = 1U << 5,  ///< the interface's driver gave a frame up
+  kNoAcknowledge = 1U << 4,    ///< no other node acknowledges
+  kTransmitTimeout = 1U << 5,  ///< the interface's driver gave up a frame
   kRestarted = 1U << 6,        ///< back on the bus after bus-off
   kErrorActive = 1U << 7,      ///< recovered from error-passive or warning
 };
 
 struct ReceivedFrame {
   enum class Kind : std::uint8_t { kData, kOwn, kTrouble };
-  CanFrame frame;              ///< of no meaning when kTrouble
+  CanFrame frame;              ///< meaningless for kTrouble
   std::uint32_t troubles = 0;  ///< CanTrouble bits when kTrouble
   Kind kind = Kind::kData;
-  /// When the kernel saw it, CLOCK_REALTIME: for differences between frames only. 0: unknown.
+  /// CLOCK_REALTIME of the kernel when it saw the frame; use only differences between frames. 0: unknown.
   std::int64_t kernel_time_ns = 0;
 };
 
@@ -54,7 +54,7 @@ enum class SendResult : std::uint8_t { kSent, kQueueFull, kLinkDown };
 
 struct ReceiveResult {
   std::size_t count = 0;        ///< frames written
-  CanLink link = CanLink::kUp;  ///< kDown or kGone in the call that learns of it
+  CanLink link = CanLink::kUp;  ///< kDown or kGone in the call that detects it
 };
 
 class CanPort {
@@ -66,9 +66,9 @@ class CanPort {
 
   /// Queues `frame` or drops it; never waits.
   virtual SendResult send(const CanFrame& frame) noexcept = 0;
-  /// Takes up to `frames.size()` frames that have arrived; never waits.
+  /// Takes up to `frames.size()` frames from the queue; never waits.
   virtual ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept = 0;
-  /// Frames that the kernel lost because they were not taken, since the port was opened.
+  /// Number of frames lost since the port was opened, because the kernel's buffer was full.
   virtual std::uint32_t overflows() const noexcept = 0;
 
   /// Waits until a frame has arrived (true) or `timeout_ns` has passed.

@@ -27,7 +27,7 @@ struct KnownTemperature {
   Entry entry;
   const char* who;
 };
-/// Vendors' objects, from their manuals. Which sensor it is, the manual says.
+/// Vendors' objects, from their manuals. The manual says which sensor it is.
 constexpr std::array kKnownTemperatures{
     KnownTemperature{{0x3201, 1}, "maxon EPOS4: power stage, 0.1 degC"},
     KnownTemperature{{0x22A3, 1}, "Elmo Gold: drive, 1 degC"},
@@ -89,7 +89,7 @@ std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t t
       node.device_type =
           static_cast<std::uint32_t>(SdoClient(*port, id, "scan", timeout_ns).upload_number({0x1000, 0}, 4));
     } catch (const canopen::SdoError&) {
-      continue;  // nobody there, or no CANopen device
+      continue;  // no node there, or no CANopen device
     }
     try {
       SdoClient client(*port, id, "scan", kReadTimeout_ns);
@@ -104,7 +104,7 @@ std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t t
 
 std::vector<ScannedNode> scan_can_interface(const std::string& interface_name) {
   const CanInterface interface = inspect_can_interface(interface_name);
-  // At whatever bit rate it runs: that is what a scan is to find out.
+  // Accepts the interface's present bit rate, because a scan shall find the right one.
   (void)require_can_interface(interface_name, interface, interface.bit_rate.value_or(0), 1);
   return scan_can_bus(
       [&](const CanPortOptions& options) { return std::make_unique<CanSocket>(interface_name, options); },

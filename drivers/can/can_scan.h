@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who is on a CAN bus: every CANopen node that answers, what it is, which modes it has, and where it may show
-// a temperature. Reads only, by SDO; orders nothing. Blocking; not real-time.
+// Lists the nodes of a CAN bus: every CANopen node that answers, its identity, its modes, and objects with a
+// possible temperature. It only reads, by SDO, and gives no orders. Blocking; not real-time.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ScannedNode {
   std::string modes;                ///< of a servo drive; empty for another device
   std::vector<std::string> mapped;  ///< objects in its TPDOs, as index:sub and bits
   std::vector<std::string>
-      temperatures;     ///< objects that drives are known to have a temperature in, with their value
+      temperatures;     ///< objects with a known vendor-specific temperature, and their value
   std::string trouble;  ///< why the rest could not be read; empty: nothing
 };
 

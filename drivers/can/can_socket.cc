@@ -21,7 +21,7 @@ namespace strainwave {
 
 namespace {
 
-/// Frames taken by one system call.
+/// Number of frames that one system call receives.
 constexpr std::size_t kBatch = 32;
 /// The highest priority that needs no privilege (TC_PRIO_INTERACTIVE).
 constexpr int kUrgentPriority = 6;
@@ -101,7 +101,7 @@ void read_control(msghdr& header, ReceivedFrame& frame, std::uint32_t& overflows
   }
 }
 
-/// Whether `raw` is something that a driver can use.
+/// Returns whether `raw` is a frame that a driver can use.
 bool translate(const can_frame& raw, int flags, ReceivedFrame& frame) noexcept {
   if ((raw.can_id & CAN_ERR_FLAG) != 0) {
     frame.kind = ReceivedFrame::Kind::kTrouble;
@@ -142,7 +142,7 @@ CanSocket::CanSocket(const std::string& interface_name, const CanPortOptions& op
   configure(interface_name, options);
 }
 
-// Filters come before bind(): until then a socket hears nothing, afterwards only what it asked for.
+// The filters come before bind(): an unbound socket receives nothing, and afterwards only the filtered frames.
 void CanSocket::configure(const std::string& interface_name, const CanPortOptions& options) {
   std::vector<can_filter> filters;
   for (const std::uint32_t id : options.receive_ids)
@@ -181,15 +181,15 @@ SendResult CanSocket::send(const CanFrame& frame) noexcept {
   raw.can_dlc = std::min<std::uint8_t>(frame.size, CAN_MAX_DLEN);
   std::copy_n(frame.bytes.begin(), raw.can_dlc, raw.data);
   if (::send(descriptor_.get(), &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return SendResult::kSent;
-  // ENOBUFS: the interface's queue is full. EAGAIN: the socket's. Anything that is not the link's end is a
-  // lost frame.
+  // ENOBUFS: the interface's queue is full. EAGAIN: the socket's queue is full. Any other error of a working
+  // link is a lost frame as well.
   return link_of(errno) == CanLink::kUp ? SendResult::kQueueFull : SendResult::kLinkDown;
 }
 
 ReceiveResult CanSocket::receive(std::span<ReceivedFrame> frames) noexcept {
   ReceiveResult result;
   Batch batch;
-  // Bounded by what was taken, not by what was of use: nobody can keep the loop here.
+  // The limit counts all received frames, also useless ones, so that a flooded bus cannot keep the loop here.
   for (std::size_t taken = 0; taken < frames.size();) {
     const std::size_t wanted = std::min(kBatch, frames.size() - taken);
     prepare(batch, wanted);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A raw SocketCAN socket behind CanPort: non-blocking, exact filters set before it hears anything, error
-// frames, the kernel's count of lost frames, software timestamps. send() and receive() are real-time safe and
-// make one system call each; the constructor is not. Source: Linux Documentation/networking/can.rst.
+// A raw SocketCAN socket as a CanPort. It is non-blocking, sets exact filters before it receives, and
+// provides error frames, the kernel's count of lost frames, and software timestamps. send() and receive() are
+// real-time safe; the constructor is not. Source: Linux Documentation/networking/can.rst.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace strainwave {
 
-/// The CanTrouble bits of an error frame: `can_id` with its flag taken off, and its eight bytes. 0: nothing
-/// that matters.
+/// Returns the CanTrouble bits of an error frame from its `can_id` without the error flag, and its eight
+/// bytes. 0: nothing relevant.
 std::uint32_t troubles_of(std::uint32_t can_id, std::span<const std::uint8_t, kMaxCanBytes> bytes) noexcept;
 
 class CanSocket final : public CanPort {
  public:
-  /// Opens `interface_name`. Throws InputError that says what to do: no CAN in the kernel, no such interface,
-  /// not a CAN interface, too many filters.
+  /// Opens `interface_name`. Throws InputError with the remedy: no CAN in the kernel, no such interface, not
+  /// a CAN interface, too many filters.
   CanSocket(const std::string& interface_name, const CanPortOptions& options);
 
   SendResult send(const CanFrame& frame) noexcept override;

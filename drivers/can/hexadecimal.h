@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as CANopen's documents write them: 6041h. Not real-time.
+// Hexadecimal numbers in the notation of CANopen documents: 6041h. Not real-time.
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every kind of drive on a CAN bus is watched for alike, and the latch of its faults. Real-time safe.
+// Supervision that all kinds of drives on a CAN bus share, and the latch of their faults. Real-time safe.
 //
-// A trouble is either there as long as its cause lasts, in use or not (`connection_trouble`), or it concerns only a drive that is in
-// use, which its node knows. Of a drive in use the first trouble is latched; only an operator's clear() ends it. Of a drive
-// that is not in use the present one is shown, so that enabling shows why it cannot be.
+// A fault is of one of two kinds. Connection faults (`connection_trouble`) exist as long as their cause, whether the drive is in
+// use or not. The node itself detects faults that concern only a drive in use. In use, the first fault is latched until an
+// operator's clear(). Otherwise the present fault is shown, so that a failed enabling has a visible reason.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ namespace strainwave {
 
 class NodeWatch {
  public:
-  /// `detail_mark` is set in each drive_error that holds a CanDetail: for protocols whose own error numbers need telling apart.
+  /// `detail_mark` is set in each drive_error with a CanDetail, for protocols whose own error numbers could be confused with it.
   explicit NodeWatch(std::int64_t heartbeat_timeout_ns, std::uint32_t detail_mark = 0) noexcept
       : heartbeat_timeout_ns_(heartbeat_timeout_ns), detail_mark_(detail_mark) {}
 
-  // The present.
+  // The present fault.
 
-  /// Each cycle: the trouble of the bus; kNone when it is well.
+  /// Takes the fault of the bus, once in each cycle; kNone when there is none.
   void note_bus(const NodeFault& trouble) noexcept {
     bus_trouble_ = trouble;
     if (trouble.fault != ActuatorFault::kNone) bus_trouble_.drive_error |= detail_mark_;
   }
   bool bus_is_well() const noexcept { return bus_trouble_.fault == ActuatorFault::kNone; }
-  /// The drive was heard, or has been set up.
+  /// The drive sent a sign of life, or has been set up.
   void hear(std::int64_t now_ns) noexcept { heard_ns_ = now_ns; }
-  /// Bus, failed set-up, heartbeat, in this order. A drive that is being set up has no trouble.
+  /// Returns the first of: bus fault, failed set-up, missing heartbeat. A drive during set-up has no fault.
   NodeFault connection_trouble(const SetUpState& setup, std::int64_t now_ns) const noexcept {
     if (!bus_is_well()) return bus_trouble_;
     if (setup.failed()) return trouble(ActuatorFault::kDriveRestarted, CanDetail::kSetupFailed);
@@ -38,22 +38,22 @@ class NodeWatch {
       return trouble(ActuatorFault::kConnectionLost, CanDetail::kHeartbeatMissing);
     return {};
   }
-  /// A fault with one of our reasons.
+  /// Returns a fault with one of our reasons.
   NodeFault trouble(ActuatorFault fault, CanDetail detail, std::uint32_t value = 0) const noexcept {
     return {fault, detail_mark_ | drive_error_of(detail, value)};
   }
 
   // The latch.
 
-  /// Keeps `fault` unless it is none, or one is kept already.
+  /// Latches `fault` unless it is none or another one is latched.
   void latch(const NodeFault& fault) noexcept {
     if (latched_.fault == ActuatorFault::kNone) latched_ = fault;
   }
   bool latched() const noexcept { return latched_.fault != ActuatorFault::kNone; }
   const NodeFault& latched_fault() const noexcept { return latched_; }
-  /// What a reading tells: the latched fault, else the present one.
+  /// Returns the fault for a reading: the latched one, else the present one.
   NodeFault shown(const NodeFault& present) const noexcept { return latched() ? latched_ : present; }
-  /// On an operator's order.
+  /// Called on an operator's order.
   void clear() noexcept { latched_ = {}; }
 
  private:

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How old a position is that a drive samples with each SYNC and sends later: from the time stamps that the kernel gives SYNC
-// and TPDO. Real-time safe.
+// The age of a position that a drive samples at each SYNC and sends later. It is derived from the kernel's
+// time stamps of SYNC and TPDO. Real-time safe.
 //
-// A TPDO does not say which SYNC it belongs to. Its delay is measured at start-up, at the loop's own rate. From there on two
-// things are followed:
+// A TPDO does not say which SYNC it belongs to. Start-up measures its delay at the loop's rate. Afterwards this class
+// watches three things:
 //
-//   its place in the period   after SYNCs without a TPDO, one that comes at another place in the period than start-up measured is late
-//                             by those periods; two with one SYNC catch up by a period. One that stays at another place for no
-//                             such reason is displaced: by how many periods it is late cannot be known
-//   the first position        of the first SYNC, before which the bus was silent: what it is late by stays, until TPDO2 comes earlier
-//   the place of TPDO2        which the drive sends with every nth SYNC that it counts: lateness of whole periods, which leaves
-//                             TPDO1 at its place as if some had been lost, moves it among the SYNCs
+//   place in the period       After SYNCs without a TPDO, a TPDO at another place than start-up measured is late by those periods.
+//                             Two TPDOs with one SYNC catch up by a period. A TPDO that stays at another place without
+//                             such a reason is displaced: its lateness in periods is unknown.
+//   first position            It belongs to the first SYNC: the bus was silent before. Its lateness stays until TPDO2 comes earlier.
+//   place of TPDO2            The drive sends TPDO2 with every nth SYNC. Lateness of whole periods leaves TPDO1 at its place, as if
+//                             some were lost, but moves TPDO2 among the SYNCs.
 #pragma once
 
 #include <algorithm>
@@ -21,22 +21,22 @@ namespace strainwave {
 
 class SampleAge {
  public:
-  /// `slow_every`: the SYNCs from one TPDO2 to the next; 1: nothing can be seen from it.
+  /// `slow_every`: number of SYNCs between two TPDO2; with 1, TPDO2 gives no information.
   SampleAge(std::int64_t period_ns, int slow_every) noexcept
       : period_ns_(period_ns), slow_every_(slow_every) {}
 
-  /// `delay_ns` >= 0: from SYNC to TPDO, as measured.
+  /// `delay_ns` >= 0: measured delay from SYNC to TPDO.
   void restart(std::int64_t delay_ns) noexcept {
     usual_lag_ = lag_ = static_cast<int>(delay_ns / period_ns_);
     syncs_ = samples_at_place_ = displaced_samples_ = 0;
     delay_ns_ = delay_ns;
     usual_phase_ns_ = moved_phase_ns_ = within_a_period(delay_ns);
     started_ = false;
-    // Later restarts happen while SYNCs are sent, so the first one of them that the drive answers is not known.
+    // Only before the first SYNC was the bus silent. At a later restart the SYNC of the first position is unknown.
     from_silence_ = sync_count_ == 0;
     slow_ = {};
   }
-  /// Kernel's time; 0: unknown, then nothing is said of the age.
+  /// Kernel time of a SYNC; 0: unknown, then the age is not updated.
   void sync(std::int64_t time_ns) noexcept {
     sync_ns_ = time_ns;
     if (first_sync_ns_ == 0) first_sync_ns_ = time_ns;
@@ -45,7 +45,7 @@ class SampleAge {
   }
   void sample(std::int64_t time_ns) noexcept {
     if (sync_ns_ == 0 || time_ns == 0) return;
-    // Within a period: an adapter may tell of our SYNC later than of its answer, so which SYNC was the last one shows nothing.
+    // The phase is taken modulo the period. An adapter may report our SYNC after the answer to it, so the last SYNC seen proves nothing.
     const std::int64_t phase_ns = within_a_period(time_ns - sync_ns_);
     const bool at_its_place = near(phase_ns, usual_phase_ns_);
     if (!started_ && from_silence_) slow_.late_from_start = periods_late_at_start(time_ns, at_its_place);
@@ -55,13 +55,13 @@ class SampleAge {
     if (started_ && syncs_ == 0 && lag_ > 0) --lag_;
     if (started_ && syncs_ > 1 && !at_its_place) lag_ += syncs_ - 1;
     samples_at_place_ = at_its_place ? samples_at_place_ + 1 : 0;
-    // One that is back where it was for so long has caught up unseen.
+    // A TPDO that stays at its usual place for so long has caught up unnoticed.
     if (samples_at_place_ >= kSettled) lag_ = usual_lag_;
     started_ = true;
     syncs_ = 0;
     delay_ns_ = lag_periods() * period_ns_ + phase_ns;
   }
-  /// TPDO2 has come.
+  /// Takes the time of a TPDO2.
   void slow_sample(std::int64_t time_ns) noexcept {
     if (sync_ns_ == 0 || time_ns == 0 || slow_every_ < 2) return;
     const std::int64_t since_ns = time_ns - sync_ns_;
@@ -70,26 +70,26 @@ class SampleAge {
     slow_.started = true;
     slow_.see(around_zero(came_with - slow_.usual));
   }
-  /// Of the newest sample, from its SYNC until it came.
+  /// Delay of the newest sample, from its SYNC to its arrival.
   std::int64_t delay_ns() const noexcept { return delay_ns_; }
-  /// It has been coming at another place in the period than start-up measured, and nothing tells why.
+  /// The TPDO arrives at another place in the period than start-up measured, without a known reason.
   bool displaced() const noexcept { return displaced_samples_ >= kSettled; }
-  /// How many SYNCs later than the newest one before it came it was sampled.
+  /// Number of SYNCs between the SYNC of the sample and the last one before its arrival.
   int lag_periods() const noexcept { return std::max(lag_, usual_lag_ + slow_.late_from_start + slow_.late); }
-  /// Those beyond what was measured at start-up, and beyond the last `left_out` periods, in which no SYNC was sent: what comes then is
-  /// of the last one before them, or of as many more before it as is usual.
+  /// Lateness in periods beyond the delay that start-up measured. No SYNC was sent in the last `left_out`
+  /// periods, which makes the sample older by that number, less the usual lag.
   int late_periods(int left_out = 0) const noexcept {
     return lag_periods() - usual_lag_ + std::max(0, left_out - usual_lag_);
   }
 
  private:
-  /// Of a period: what a TPDO's place may jitter by, on adapters that tell of frames promptly.
+  /// Allowed jitter of a TPDO's place is period / kPlaceShare, on adapters that report frames promptly.
   static constexpr std::int64_t kPlaceShare = 5;
   static constexpr int kSettled = 50;
-  /// TPDO2s in a row: a single one may wait behind other frames.
+  /// Number of consecutive TPDO2 that must agree: a single one may wait behind other frames.
   static constexpr int kAgreeing = 3;
 
-  /// Where TPDO2 comes among the SYNCs.
+  /// The place of TPDO2 among the SYNCs.
   struct SlowPlace {
     void see(std::int64_t off) noexcept {
       const bool agrees = in_a_row > 0 && (off > 0) == (least > 0) && off != 0;
@@ -97,7 +97,7 @@ class SampleAge {
       if (!agrees || std::abs(off) < std::abs(least)) least = off;
       if (off == 0) late = 0;
       if (in_a_row < kAgreeing) return;
-      // No drive answers before it is asked: what is early has caught up, or tells of a SYNC that was not seen here.
+      // A drive cannot answer before the SYNC. An early TPDO2 has caught up, or belongs to a SYNC that was not seen here.
       if (least < 0) {
         usual += least;
         late_from_start = std::max(late_from_start + static_cast<int>(least), 0);
@@ -105,10 +105,10 @@ class SampleAge {
       late = least > 0 ? static_cast<int>(least) : 0;
       if (least < 0) in_a_row = 0;
     }
-    std::int64_t usual = 0;   ///< a SYNC with which it came when it was on time
-    std::int64_t least = 0;   ///< of those in a row
-    int in_a_row = 0;         ///< so many were off to the same side
-    int late = 0;             ///< periods, since `usual` was seen
+    std::int64_t usual = 0;   ///< number of a SYNC with which TPDO2 came on time
+    std::int64_t least = 0;   ///< smallest offset among those in a row
+    int in_a_row = 0;         ///< number of consecutive offsets of the same sign
+    int late = 0;             ///< periods, relative to `usual`
     int late_from_start = 0;  ///< periods that `usual` itself is late
     bool started = false;
   };
@@ -121,13 +121,13 @@ class SampleAge {
     const std::int64_t off_ns = within_a_period(phase_ns - other_ns);
     return std::min(off_ns, period_ns_ - off_ns) <= period_ns_ / kPlaceShare;
   }
-  /// Of the first position, beyond the usual lag.
+  /// Lateness of the first position, beyond the usual lag.
   int periods_late_at_start(std::int64_t time_ns, bool at_its_place) const noexcept {
     const std::int64_t since_ns =
         time_ns - first_sync_ns_ + (at_its_place ? period_ns_ / 2 - usual_phase_ns_ : 0);
     return static_cast<int>(std::max<std::int64_t>(since_ns / period_ns_ - usual_lag_, 0));
   }
-  /// The same place among the SYNCs between two TPDO2s, from -slow_every / 2 to slow_every / 2.
+  /// Returns the offset among the SYNCs between two TPDO2, from -slow_every / 2 to slow_every / 2.
   std::int64_t around_zero(std::int64_t syncs) const noexcept {
     const std::int64_t rest = ((syncs % slow_every_) + slow_every_) % slow_every_;
     return rest > slow_every_ / 2 ? rest - slow_every_ : rest;

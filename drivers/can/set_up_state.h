@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the set-up of a drive is, between the background thread, which does it, and the loop, which asks for it and uses
-// the drive only when it is done. What set-up writes may be read by the loop once ready(), and by no other thread meanwhile.
-// Real-time safe.
+// The state of a drive's set-up. The background thread does the set-up; the loop requests it and uses the
+// drive only when it is done. The loop may read the data that set-up writes once ready(); no other thread may
+// read them meanwhile. Real-time safe.
 //
 // As the loop sees it:
 //
-//   Away ------ set up ---------------------------> Settling   the frames that this period finds may be of the time before
-//   Settling -- the next period ------------------> Ready      whatever was known of the drive is forgotten
-//   Ready ----- wear_out() -----------------------> WornOut    in use still; after a fault not without a new set-up
+//   Away ------ set up ---------------------------> Settling   frames received in this period may predate the set-up
+//   Settling -- the next period ------------------> Ready      the loop discards its old state of the drive
+//   Ready ----- wear_out() -----------------------> WornOut    still in use; a fault then needs a new set-up
 //   any ------- request(), a set-up that begins --> Away
 //   any ------- a set-up that failed -------------> Failed
 #pragma once
@@ -20,9 +20,9 @@ class SetUpState {
  public:
   enum class State : int { kReady, kRequested, kRunning, kFailed };
 
-  // Start-up and the background thread.
+  // For start-up and the background thread.
 
-  /// Takes the loop's request, if there is one; then a set-up must follow, and end().
+  /// Takes the loop's request, if there is one. The caller must then do a set-up and call end().
   bool begin() noexcept {
     State requested = State::kRequested;
     return state_.compare_exchange_strong(requested, State::kRunning, std::memory_order_acq_rel);
@@ -31,13 +31,13 @@ class SetUpState {
     state_.store(good ? State::kReady : State::kFailed, std::memory_order_release);
   }
 
-  // Either.
+  // For both.
 
   State now() const noexcept { return state_.load(std::memory_order_acquire); }
 
-  // The loop.
+  // For the loop.
 
-  /// At the begin of a period. True: from this one on the drive can be used, and begins anew.
+  /// Called at the start of each period. True: from this period on the drive can be used, and its old state must be forgotten.
   bool look() noexcept {
     const State state = now();
     if (state != State::kReady) {
@@ -51,13 +51,13 @@ class SetUpState {
   }
   bool ready() const noexcept { return seen_ == Seen::kReady || seen_ == Seen::kWornOut; }
   bool failed() const noexcept { return seen_ == Seen::kFailed; }
-  /// What set-up found may no longer be so: the drive was out of sight, or measured lateness has changed.
+  /// The results of set-up may be outdated: the drive was unreachable, or its measured delay has changed.
   void wear_out() noexcept {
     if (seen_ == Seen::kReady) seen_ = Seen::kWornOut;
   }
-  /// A fault cannot be cleared without a new set-up.
+  /// A fault can be cleared only with a new set-up.
   bool must_be_repeated() const noexcept { return seen_ == Seen::kWornOut || seen_ == Seen::kFailed; }
-  /// The drive is not used any more until it has been set up anew.
+  /// The drive must not be used until it has been set up again.
   void request() noexcept {
     seen_ = Seen::kAway;
     state_.store(State::kRequested, std::memory_order_release);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a joint's position comes from, in counts. read() and clear_fault() are real-time safe.
+// Source of a joint's position, in counts. read() and clear_fault() are real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@ namespace strainwave {
 class CountSource {
  public:
   enum class State {
-    kFresh,       ///< counts are of now
-    kStale,       ///< no sample this time
+    kFresh,       ///< the counts are those of this period
+    kStale,       ///< no sample in this period
     kImplausible  ///< counts are missing or wrong until clear_fault()
   };
   struct Sample {
-    std::int64_t counts = 0;  ///< since the start, accumulated; the last known ones when not fresh
+    std::int64_t counts = 0;  ///< accumulated since the start; the last known value when not fresh
     State state = State::kStale;
   };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kDefaultCeiling = 0xFFFFFFFF;
 
-// Sets what the configuration says and returns the ceiling in force.
+// Writes the configured values and returns the ceiling in force.
 std::uint64_t configure(const CounterConfig& config, const std::string& where) {
   const std::filesystem::path& folder = config.count_folder;
   if (std::filesystem::exists(folder / "function"))
@@ -34,7 +34,7 @@ std::uint64_t configure(const CounterConfig& config, const std::string& where) {
 std::optional<std::int64_t> CountUnwrapper::step(std::uint64_t count) noexcept {
   if (count > ceiling_) return std::nullopt;
   if (begun_) {
-    // Modulo ceiling + 1, which wraps to 0 for the full 64 bits, as it should.
+    // The modulus of a 64-bit counter, 2^64, wraps to 0; the unsigned arithmetic below is still correct.
     const std::uint64_t modulus = ceiling_ + 1;
     const std::uint64_t up = count >= last_ ? count - last_ : count - last_ + modulus;
     const std::uint64_t down = modulus - up;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as a
-// quadrature decoder of the SoC. Real-time safe as far as SysfsFile: read(). The constructor configures the counter.
+// Position from a hardware counter: a Count of the kernel's Counter subsystem, such as a quadrature decoder of the SoC.
+// The sysfs file stays open. read() is as real-time safe as SysfsFile. The constructor configures the counter.
 //
-// The count wraps at its ceiling: from one period to the next it moves the shorter way round. A joint must
+// The count wraps at its ceiling, and the shorter way round is taken as the motion of a period. A joint must
 // therefore move less than half the ceiling in a period. Source: the kernel's
 // Documentation/driver-api/generic-counter.rst, ABI sysfs-bus-counter.
 #pragma once
@@ -19,15 +19,15 @@ namespace strainwave {
 
 struct CounterConfig {
   std::filesystem::path count_folder;      ///< ".../counter0/count0"
-  std::optional<std::uint64_t> ceiling;    ///< set at the start; without it what the counter has, or 2^32 - 1
-  std::string function = "quadrature x4";  ///< set where the counter has the attribute
+  std::optional<std::uint64_t> ceiling;    ///< set at the start; if empty: the counter's value, or 2^32 - 1
+  std::string function = "quadrature x4";  ///< written if the counter has this attribute
 };
 
-/// Steps of a count between 0 and `ceiling`, accumulated.
+/// Accumulates the steps of a count that wraps between 0 and `ceiling`.
 class CountUnwrapper {
  public:
   explicit CountUnwrapper(std::uint64_t ceiling) noexcept : ceiling_(ceiling) {}
-  /// Nothing when `count` is above the ceiling.
+  /// Returns the accumulated count, or nothing when `count` is above the ceiling.
   std::optional<std::int64_t> step(std::uint64_t count) noexcept;
 
  private:
@@ -39,7 +39,7 @@ class CountUnwrapper {
 
 class CounterCounts final : public CountSource {
  public:
-  /// Throws InputError: no such counter, a value it does not take.
+  /// Throws InputError for a missing counter or a value that the counter refuses.
   CounterCounts(const CounterConfig& config, const std::string& where);
 
   Sample read(std::int64_t now_ns) noexcept override;

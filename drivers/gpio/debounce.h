@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Digital inputs that must be steady for a while before they are believed, by role. The same for every kernel and library:
-// the levels are read every period anyway. Pure, real-time safe; time is an argument.
+// Debounces digital inputs: a level must be steady for a while before it is accepted. Works on the levels that are read
+// in every period, so it does not depend on kernel or library. Pure, real-time safe; time is an argument.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace strainwave {
 class Debounce {
  public:
   Debounce() = default;
-  /// 0 for a role: believed at once.
+  /// Time for which a level must be steady, by role; 0: accepted at once.
   explicit Debounce(const std::array<std::int64_t, kLineRoles>& steady_ns) noexcept : steady_ns_(steady_ns) {}
 
-  /// One period's levels, bits by role; the levels that are believed. The first ones are believed as they are.
+  /// Takes the levels of one period, bits by role, and returns the accepted levels. The first levels are accepted at once.
   std::uint32_t step(std::uint32_t active, std::int64_t now_ns) noexcept {
     if (!started_) believed_ = active;
     started_ = true;
@@ -32,9 +32,9 @@ class Debounce {
 
  private:
   std::array<std::int64_t, kLineRoles> steady_ns_{};
-  std::array<std::int64_t, kLineRoles> since_ns_{};  ///< when a level that is not believed was first read
+  std::array<std::int64_t, kLineRoles> since_ns_{};  ///< when a level that is not accepted yet was first read
   std::uint32_t believed_ = 0;
-  std::uint32_t differed_ = 0;  ///< levels that were not believed in the last period
+  std::uint32_t differed_ = 0;  ///< levels that were not accepted in the last period
   bool started_ = false;
 };
 

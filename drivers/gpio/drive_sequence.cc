@@ -88,11 +88,11 @@ DriveSequence::Outputs DriveSequence::stop(std::int64_t now_ns) noexcept {
 DriveState DriveSequence::drive_state() const noexcept {
   switch (state_) {
     case State::kOff:
-    // The amplifier is off; that the brake waits concerns nobody else.
+    // The amplifier is off; the loop need not know that the brake is still open.
     case State::kStopping:
       return DriveState::kDisabled;
     case State::kEnabling:
-    // Whoever wants it on again waits until the brake is shut.
+    // A new order to enable waits until the brake is shut.
     case State::kEngaging:
       return DriveState::kEnabling;
     case State::kHolding:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order of amplifier and brake: a state machine from what is wanted to what the outputs
-// are. Pure, real-time safe; time is an argument.
+// The switching sequence of amplifier and brake: a state machine from the enable order to the outputs. Pure,
+// real-time safe; time is an argument.
 //
 //   off --enable--> amplifier on, no torque, brake shut
-//     --enable_delay--> torque, brake shut: whoever controls the joint takes hold of it
+//     --enable_delay--> torque, brake shut: the controller takes over the load
 //     --hold_delay--> brake opens, under torque --release_delay--> on: the joint may be moved
 //   on --disable--> brake shuts while the last torque holds the load --engage_delay--> off
-//   any --stop--> no torque, amplifier off, brake shut, all at once; with stop_delay the brake shuts so much
-//   later, for a joint that friction shall slow first and no load drives
-// Without a brake its delays are 0.
+//   any --stop--> no torque, amplifier off, brake shut, all at once. With stop_delay the brake shuts
+//   later, for a joint without a driving load that friction shall slow first
+// Without a brake, its delays are 0.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@
 namespace strainwave {
 
 struct DriveSequenceConfig {
-  double enable_delay_s = 0.0;   ///< the amplifier needs this before it makes torque
-  double hold_delay_s = 0.0;     ///< under torque with the brake shut, before it opens
-  double release_delay_s = 0.0;  ///< the brake needs this to open
-  double engage_delay_s = 0.0;   ///< the brake needs this to shut
-  double stop_delay_s = 0.0;     ///< after a stop, until the brake shuts
+  double enable_delay_s = 0.0;   ///< time until the amplifier can produce torque
+  double hold_delay_s = 0.0;     ///< under torque with the brake shut, before the brake opens
+  double release_delay_s = 0.0;  ///< time that the brake needs to open
+  double engage_delay_s = 0.0;   ///< time that the brake needs to shut
+  double stop_delay_s = 0.0;     ///< from a stop until the brake shuts
 };
 
 class DriveSequence {
@@ -35,9 +35,9 @@ class DriveSequence {
 
   explicit DriveSequence(const DriveSequenceConfig& config) noexcept;
 
-  /// One period.
+  /// Advances by one period.
   Outputs step(bool enable, std::int64_t now_ns) noexcept;
-  /// At once; step() then shuts the brake in time.
+  /// Stops at once; step() later shuts the brake when stop_delay_s is over.
   Outputs stop(std::int64_t now_ns) noexcept;
 
   State state() const noexcept { return state_; }
@@ -47,9 +47,9 @@ class DriveSequence {
   }
   /// The brake has opened, and the joint may be moved.
   bool may_move() const noexcept { return state_ == State::kOn; }
-  /// The last torque is kept while the brake shuts.
+  /// The output keeps the last torque while the brake shuts.
   bool holds_torque() const noexcept { return state_ == State::kEngaging; }
-  /// The amplifier has had its time to become ready.
+  /// The enable delay of the amplifier is over.
   bool amplifier_ready() const noexcept { return has_torque() || holds_torque(); }
   DriveState drive_state() const noexcept;
 

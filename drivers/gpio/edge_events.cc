@@ -20,7 +20,7 @@ namespace strainwave {
 namespace {
 
 std::uint64_t flags_of(const LineOptions& line, EdgeKind kind) {
-  // Rising is what becomes active, whatever the polarity.
+  // With active-low lines the kernel reports the edge to active as rising, too.
   std::uint64_t flags = GPIO_V2_LINE_FLAG_INPUT | GPIO_V2_LINE_FLAG_EDGE_RISING;
   if (kind == EdgeKind::kBoth) flags |= GPIO_V2_LINE_FLAG_EDGE_FALLING;
   if (line.active_low) flags |= GPIO_V2_LINE_FLAG_ACTIVE_LOW;
@@ -73,7 +73,7 @@ EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const 
   }
   wanted.config.flags = flags_of(first, kind);
   if (first.debounce_s > 0.0) {
-    // Of all lines alike; the first one says it.
+    // The debounce time of the first line applies to all lines.
     gpio_v2_line_config_attribute& attribute = wanted.config.attrs[wanted.config.num_attrs++];
     attribute.attr.id = GPIO_V2_LINE_ATTR_ID_DEBOUNCE;
     attribute.attr.debounce_period_us = static_cast<std::uint32_t>(std::lround(first.debounce_s * 1e6));

@@ -28,7 +28,7 @@ ActuatorReading GpioActuator::read(std::int64_t now_ns) noexcept {
   read_position(reading);
   read_inputs(reading);
   reading.torque_applied_Nm = last_output_.torque_applied_Nm;
-  // Of several causes the one that people must know first.
+  // If several faults are present, the one that matters most to the operator is reported.
   if (const ActuatorFault fault = fault_of_inputs(); fault != ActuatorFault::kNone) reading.fault = fault;
   reading.drive_state = sequence_.drive_state();
   reading.brake_shut = sequence_.has_torque() && !sequence_.may_move();
@@ -42,7 +42,7 @@ void GpioActuator::read_position(ActuatorReading& reading) noexcept {
   reading.joint_position_rad = position_rad;
   reading.has_position = sample.state == CountSource::State::kFresh;
   if (sample.state == CountSource::State::kImplausible) reading.fault = ActuatorFault::kImplausible;
-  // For the back-EMF only: the loop has an observer of its own.
+  // This velocity serves the back-EMF compensation only; the loop has its own observer.
   if (reading.has_position && has_position_) {
     const double difference_rad_s = (position_rad - position_rad_) / motion_.period_s;
     const double share = motion_.period_s / (motion_.period_s + motion_.velocity_filter_s);
@@ -69,7 +69,7 @@ void GpioActuator::read_inputs(ActuatorReading& reading) noexcept {
 ActuatorFault GpioActuator::fault_of_inputs() const noexcept {
   if (lines_failed_) return ActuatorFault::kConnectionLost;
   if ((active_ & bit(LineRole::kEmergencyStop)) != 0) return ActuatorFault::kEmergencyStop;
-  // An amplifier that is off may well say that it is not ready.
+  // A disabled amplifier may signal "not ready", which is no fault.
   if (sequence_.amplifier_ready() && (active_ & bit(LineRole::kAmplifierFault)) != 0)
     return ActuatorFault::kDriveFault;
   return write_failed_ ? ActuatorFault::kWriteRefused : ActuatorFault::kNone;
@@ -77,7 +77,7 @@ ActuatorFault GpioActuator::fault_of_inputs() const noexcept {
 
 void GpioActuator::write(const ActuatorCommand& command) noexcept {
   alive_ = !alive_;
-  // Outputs in doubt are no outputs.
+  // With a failed line the state of the outputs is unknown, so the drive stops.
   if (lines_failed_ || write_failed_) return put_out(torque_.idle(), sequence_.stop(now_ns_));
   const DriveSequence::Outputs outputs = sequence_.step(command.enable, now_ns_);
   if (sequence_.has_torque())
@@ -95,7 +95,7 @@ void GpioActuator::clear_fault() noexcept {
   parts_.counts->clear_fault();
 }
 
-// No torque first, torque last and only with its lines right; whatever fails, what makes safe is done.
+// Zero torque is set before the lines change, other torque after them and only if they are right. If a call fails, the PWM goes idle.
 void GpioActuator::put_out(const TorqueOutput::Output& torque,
                            const DriveSequence::Outputs& sequence) noexcept {
   const std::uint32_t lines = (sequence.enable ? bit(LineRole::kEnable) : 0) |

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bare DC motor behind the interface Actuator: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
-// counter or, slowly, by edges, temperature by a file. The calls read(), write(), stop() and clear_fault() are real-time
-// safe on this side. Each makes a few system calls: one per group of lines, one for the PWM, one for the counter. None of
-// them waits for anything but locks of the kernel's own drivers.
+// A DC motor as an Actuator. An amplifier or H-bridge is driven by PWM and digital lines. The encoder uses a
+// hardware counter or, for slow joints, edges; ThermometerActuator adds the temperature. read(), write(), stop() and
+// clear_fault() are real-time safe in user space. They make a few system calls: one per group of lines, one
+// for the PWM, one for the counter. These wait only for locks of the kernel's drivers.
 //
-// What stops the joint when this process dies is wiring, not software: docs/gpio.md.
+// The wiring, not the software, must stop the joint when this process dies: docs/gpio.md.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,13 @@
 namespace strainwave {
 
 struct GpioMotionConfig {
-  double count_rad = 0.0;         ///< joint's rotation per count, > 0
-  bool encoder_reversed = false;  ///< rising counts are falling position
-  double velocity_filter_s =
-      0.005;  ///< time constant of the velocity that back-EMF is compensated with, >= 0
+  double count_rad = 0.0;            ///< joint rotation per count, > 0
+  bool encoder_reversed = false;     ///< rising counts mean falling position
+  double velocity_filter_s = 0.005;  ///< time constant of the velocity for back-EMF compensation, >= 0
   double period_s = 0.001;
 };
 
-/// The parts, as the configuration has them; `index` may be null.
+/// The hardware parts of a joint; `index` may be null.
 struct GpioParts {
   std::unique_ptr<DigitalLines> lines;
   std::unique_ptr<PwmChannel> pwm;
@@ -42,7 +41,7 @@ class GpioActuator final : public Actuator {
  public:
   GpioActuator(GpioParts parts, const GpioMotionConfig& motion, const TorqueOutputConfig& torque,
                const DriveSequenceConfig& sequence, const Debounce& debounce = {});
-  /// Stops; the parts then leave their outputs safe, the brake shut.
+  /// Stops. The parts then set their outputs to safe levels, with the brake shut.
   ~GpioActuator() override;
 
   ActuatorReading read(std::int64_t now_ns) noexcept override;
@@ -63,13 +62,13 @@ class GpioActuator final : public Actuator {
   Debounce debounce_;
   IndexCapture index_;
   TorqueOutput::Output last_output_;
-  std::uint32_t active_ = 0;  ///< inputs of this period, by role
+  std::uint32_t active_ = 0;  ///< inputs of this period, bits by role
   std::int64_t now_ns_ = 0;
   double position_rad_ = 0.0;
   double velocity_rad_s_ = 0.0;
-  bool has_position_ = false;  ///< position_rad_ is that of the period before
+  bool has_position_ = false;  ///< position_rad_ is from the last period
   bool lines_failed_ = false;
-  bool write_failed_ = false;  ///< until cleared
+  bool write_failed_ = false;  ///< until clear_fault()
   bool alive_ = false;
 };
 

@@ -20,7 +20,7 @@ std::unique_ptr<CountSource> make_counts(const GpioJointConfig& config) {
                                             config.where + ".quadrature");
 }
 
-/// Of levels; edges are the kernel's to debounce.
+/// Debounces the lines that are read as levels; the kernel debounces edges.
 Debounce debounce_of(const JointLines& lines) {
   std::array<std::int64_t, kLineRoles> steady_ns{};
   for (std::size_t i = 0; i < kLineRoles; ++i)
@@ -34,7 +34,7 @@ Debounce debounce_of(const JointLines& lines) {
 std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config) {
   GpioParts parts;
   parts.lines = std::make_unique<GpioLines>(config.lines, config.consumer(), config.where);
-  // Only now, with the amplifier off and the brake shut.
+  // The encoder follows when the amplifier is off and the brake is shut.
   parts.counts = make_counts(config);
   if (const auto& index = line_of(config, LineRole::kIndex))
     parts.index = std::make_unique<EdgeEvents>(std::array{*index}, EdgeKind::kActive, config.consumer(),

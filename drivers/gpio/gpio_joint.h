@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One joint's GPIO hardware by configuration: makes the drive, and tells of its lines without touching them.
-// Not real-time.
+// The GPIO hardware of one joint, from the configuration: makes the drive, and reports its lines without
+// changing them. Not real-time.
 #pragma once
 
 #include <memory>
@@ -16,25 +16,25 @@
 namespace strainwave {
 
 struct GpioJointConfig {
-  std::string joint;  ///< name; lines are held as "strainwaved <joint>"
-  std::string where;  ///< section in messages: "joint[0].gpio"
+  std::string joint;  ///< name; the lines are requested as "strainwaved <joint>"
+  std::string where;  ///< section name for messages: "joint[0].gpio"
   JointLines lines;
   PwmConfig pwm;
-  std::variant<CounterConfig, QuadratureConfig> encoder;  ///< the lines of the latter are those of its roles
+  std::variant<CounterConfig, QuadratureConfig> encoder;  ///< quadrature uses the lines of its roles
   GpioMotionConfig motion;
   TorqueOutputConfig torque;
   DriveSequenceConfig sequence;
 
-  /// As whom the lines are held; the kernel keeps 31 characters.
+  /// The consumer name of the lines; the kernel keeps 31 characters.
   std::string consumer() const { return ("strainwaved " + joint).substr(0, 31); }
 };
 
-/// Requests everything, outputs safe. Throws InputError before anything is driven.
+/// Requests all hardware with safe outputs. Throws InputError before it drives any output.
 std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config);
 
-/// One line of text per line: role, place, direction, level, holder. Outputs are not requested, inputs only
-/// as they are and only when they are free. False when a line is missing or held by another process; the text
-/// says what is wrong.
+/// Writes one row per line: role, place, direction, level, holder. It requests no outputs, and inputs only if
+/// they are free, without changing them. Returns false when a line is missing or another process holds it;
+/// the text says what is wrong.
 bool report_lines(const GpioJointConfig& config, std::ostream& out);
 
 }  // namespace strainwave

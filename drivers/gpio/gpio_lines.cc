@@ -51,7 +51,7 @@ std::string find_chip(const std::string& chip, const std::string& where) {
     try {
       if (chip_label(candidate) == chip) found.push_back(candidate);
     } catch (const std::system_error&) {
-      // One that may not be opened is not the one, or the error comes when it is named.
+      // Skips a chip that cannot be opened. If the user gives its path, find_line() reports the error.
     }
   }
   if (found.size() == 1) return found.front();
@@ -103,7 +103,7 @@ std::string describe_holder(const LineInfo& info) {
   return "held by " + holder + ": end what uses it, or take its driver off the line";
 }
 
-// Lines of one chip with the same settings make one request.
+// Lines of one chip with the same settings share one request.
 std::vector<GpioLines::Group> GpioLines::group(const JointLines& lines, const std::string& consumer,
                                                const std::string& where) {
   std::vector<Group> groups;
@@ -178,7 +178,7 @@ bool GpioLines::write(std::uint32_t active) noexcept {
     for (std::size_t i = 0; i < requested.roles.size(); ++i)
       if ((active & bit(requested.roles[i])) != 0) bits |= 1U << i;
     if (bits == requested.written) continue;
-    // What could not be written is tried again; the other lines are written in any case.
+    // A write that failed is tried again in the next period; the other lines are written in any case.
     if (requested.request.write(bits))
       requested.written = bits;
     else

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The digital lines of a joint by what they are for, wherever they are wired. Names are looked up once, and lines
-// of one chip with the same settings are requested together. Real-time safe are read() and write() alone.
+// The digital lines of a joint, by role. Names are looked up once, and lines of one chip with the same
+// settings share one request. Only read() and write() are real-time safe.
 //
-// True is active, whatever the polarity. Every output is inactive when it is requested and when this object
-// ends: wire them so that inactive is safe.
+// True means active, whatever the polarity. Every output is inactive when it is requested and when this
+// object is destroyed: wire the outputs so that inactive is safe.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace strainwave {
 
-/// Outputs first.
+/// Outputs come first, edge inputs last.
 enum class LineRole {
   kEnable,        ///< out: the amplifier may drive
-  kDirection,     ///< out: negative torque
-  kBrakeRelease,  ///< out: the brake is open
-  kAlive,         ///< out: changes every period, for a hardware watchdog
+  kDirection,     ///< out: active for negative torque
+  kBrakeRelease,  ///< out: active opens the brake
+  kAlive,         ///< out: toggles in every period, for a hardware watchdog
   kAmplifierFault,
   kEmergencyStop,
   kNegativeLimit,
@@ -42,45 +42,45 @@ constexpr bool is_edge_input(LineRole role) noexcept {
 constexpr std::uint32_t bit(LineRole role) noexcept {
   return 1U << static_cast<unsigned>(role);
 }
-/// Key in the configuration.
+/// Returns the key in the configuration.
 std::string_view to_text(LineRole role) noexcept;
 
 struct LineOptions {
   std::string chip;  ///< "gpiochip0", a path, or the chip's label
-  std::string line;  ///< its name, or its number on the chip
+  std::string line;  ///< name of the line, or its number on the chip
   LineBias bias = LineBias::kAsIs;
   bool active_low = false;
-  double debounce_s = 0.0;  ///< of an input: it must be steady for so long; 0: believed at once
+  double debounce_s = 0.0;  ///< time for which an input must be steady; 0: accepted at once
 };
 using JointLines = std::array<std::optional<LineOptions>, kLineRoles>;
 
-/// Where a line is.
+/// Location of a line.
 struct LinePlace {
   std::string chip_path;
   unsigned offset = 0;
   LineInfo info;
 };
-/// Throws InputError that names `where`: no such chip, no such line, several of that name.
+/// Throws InputError with `where`: chip or line missing, or several lines with this name.
 LinePlace find_line(const LineOptions& options, const std::string& where);
-/// What holds a line that could not be requested, and what to do.
+/// Returns the holder of a line that could not be requested, and the remedy.
 std::string describe_holder(const LineInfo& info);
 
-/// The seam that tests stand in for.
+/// Interface that tests replace.
 class DigitalLines {
  public:
   virtual ~DigitalLines() = default;
-  /// Bits by role. False when the kernel refuses.
+  /// Reads the inputs, bits by role. Returns false when the kernel refuses.
   virtual bool read(std::uint32_t& active) noexcept = 0;
-  /// All outputs; those that changed are written.
+  /// Sets all outputs; only changed lines are written.
   virtual bool write(std::uint32_t active) noexcept = 0;
 };
 
 class GpioLines final : public DigitalLines {
  public:
-  /// Requests every line of `lines` but edge inputs. Throws InputError before anything is driven: missing
-  /// chip, unknown or repeated line, a line that is held. `where` is how messages name the section.
+  /// Requests every line of `lines` except edge inputs. Throws InputError before it drives any output:
+  /// missing chip, unknown or repeated line, a line that is held. `where` names the section in messages.
   GpioLines(const JointLines& lines, const std::string& consumer, const std::string& where);
-  /// Outputs inactive, then released.
+  /// Sets the outputs inactive, then releases the lines.
   ~GpioLines() override;
   GpioLines(const GpioLines&) = delete;
   GpioLines& operator=(const GpioLines&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// report_lines() of gpio_joint.h: what gpio-check shows.
+// report_lines() of gpio_joint.h, the output of gpio-check.
 #include <filesystem>
 #include <iomanip>
 #include <system_error>
@@ -17,7 +17,7 @@ std::string level_text(bool active) {
   return active ? "active" : "inactive";
 }
 
-// Requested as it is, so that its direction does not change.
+// The request keeps the direction of the line.
 std::string level_of_free_input(const LinePlace& place, const LineOptions& options) {
   try {
     LineRequest request({place.chip_path,

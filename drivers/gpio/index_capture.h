@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the encoder's index pulse was: its edges come with the time of the interrupt, and between two
-// position samples the joint is taken to move evenly. Real-time safe.
+// Position of the encoder's index pulse. Each edge carries the time of its interrupt, and the position is
+// interpolated linearly between two samples. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace strainwave {
 
 class IndexCapture {
  public:
-  /// A pulse began at `time_ns`; its place is known with the next sample().
+  /// A pulse began at `time_ns`; the next sample() determines its position.
   void pulse(std::int64_t time_ns) noexcept;
-  /// This period's sample, after its pulses.
+  /// Takes the sample of this period, after its pulses.
   void sample(double joint_position_rad, std::int64_t now_ns) noexcept;
   void fill(JointInputs& inputs) const noexcept {
     inputs.index_count = count_;
@@ -24,7 +24,7 @@ class IndexCapture {
  private:
   std::int64_t count_ = 0;
   double position_rad_ = 0.0;
-  std::int64_t pending_ns_ = 0;  ///< a pulse whose place is not known yet; 0: none
+  std::int64_t pending_ns_ = 0;  ///< time of a pulse without a position yet; 0: none
   double last_position_rad_ = 0.0;
   std::int64_t last_ns_ = 0;
 };

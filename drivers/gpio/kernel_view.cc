@@ -9,14 +9,14 @@ namespace strainwave {
 
 namespace {
 
-/// The number that `text` begins with.
+/// Returns the number at the start of `text`.
 std::optional<unsigned> leading_number(std::string_view text) {
   unsigned number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-/// "gpiochip0: GPIOs 512-523, ..." numbers its lines from 512 on, "gpiochip0: 12 GPIOs, ..." from 0.
+/// "gpiochip0: GPIOs 512-523, ..." numbers its lines from 512; "gpiochip0: 12 GPIOs, ..." numbers them from 0.
 unsigned first_number(std::string_view header) {
   constexpr std::string_view kRange = ": GPIOs ";
   const std::size_t at = header.find(kRange);
@@ -25,7 +25,7 @@ unsigned first_number(std::string_view header) {
 
 }  // namespace
 
-// " gpio-513 (direction           |strainwaved elbow   ) out hi ACTIVE LOW"
+// A line of the list: " gpio-513 (direction           |strainwaved elbow   ) out hi ACTIVE LOW"
 std::optional<bool> level_in_kernel_list(std::string_view text, std::string_view chip, unsigned offset) {
   std::istringstream lines{std::string(text)};
   bool inside = false;

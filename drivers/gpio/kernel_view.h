@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of lines that a process holds, as the kernel's own list shows them (debugfs, for root only); others
-// cannot request them. Not real-time. Source: gpiolib_dbg_show() of the kernel; its format is not promised, so what
-// does not look as expected is nothing.
+// Levels of lines that another process holds, from the kernel's debugfs list (root only); such lines cannot
+// be requested. Not real-time. Source: gpiolib_dbg_show() of the kernel. The format is not guaranteed, so
+// unexpected text gives no result.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace strainwave {
 
-/// Whether line `offset` of `chip` ("gpiochip0") is high, by the text of /sys/kernel/debug/gpio.
+/// Returns whether line `offset` of `chip` ("gpiochip0") is high, from the text of /sys/kernel/debug/gpio.
 std::optional<bool> level_in_kernel_list(std::string_view text, std::string_view chip, unsigned offset);
 
-/// The same by the file itself; nothing when it cannot be read.
+/// The same from the file itself; nothing when it cannot be read.
 std::optional<bool> level_of_held_line(std::string_view chip, unsigned offset);
 
 }  // namespace strainwave

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of one GPIO chip, requested together with the same settings. It hides libgpiod, which has two incompatible
-// APIs: line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13). The build chooses one by
-// pkg-config. Real-time safe are read() and write() alone, with one system call each.
+// Lines of one GPIO chip, requested together with the same settings. It hides libgpiod, which has two
+// incompatible APIs: line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13). The
+// build selects one with pkg-config. Only read() and write() are real-time safe; each makes one system call.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace strainwave {
 enum class LineBias { kAsIs, kOff, kPullUp, kPullDown };
 enum class LineDirection { kAsIs, kInput, kOutput };
 
-/// What the kernel says of a line without its being requested.
+/// What the kernel reports about a line that is not requested.
 struct LineInfo {
   unsigned offset = 0;
   std::string name;      ///< empty: none
-  std::string consumer;  ///< its holder; empty: none, or one without a name
+  std::string consumer;  ///< name of the holder; empty: no holder, or one without a name
   bool held = false;
   bool output = false;
   bool active_low = false;
@@ -35,7 +35,7 @@ class LineRequest {
   struct Settings {
     std::string chip_path;
     std::string consumer;
-    LineDirection direction = LineDirection::kInput;  ///< outputs begin inactive, in the request itself
+    LineDirection direction = LineDirection::kInput;  ///< the request itself sets outputs inactive
     LineBias bias = LineBias::kAsIs;
     bool active_low = false;
     std::vector<unsigned> offsets;  ///< 1 to 32
@@ -49,9 +49,9 @@ class LineRequest {
   LineRequest& operator=(const LineRequest&) = delete;
   LineRequest& operator=(LineRequest&&) = delete;
 
-  /// Bit i: whether line i of the settings is active. False when the kernel refuses.
+  /// Bit i: line i of the settings is active. Returns false when the kernel refuses.
   bool read(std::uint32_t& active) noexcept;
-  /// Of outputs.
+  /// Sets the outputs, bits as in read(). Returns false when the kernel refuses.
   bool write(std::uint32_t active) noexcept;
 
  private:

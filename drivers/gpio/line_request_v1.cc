@@ -99,7 +99,7 @@ LineRequest::LineRequest(const Settings& settings) : handle_(std::make_unique<Ha
 }
 
 LineRequest::LineRequest(LineRequest&&) noexcept = default;
-// Closing the chip releases the lines.
+// The destructor closes the chip, which releases the lines.
 LineRequest::~LineRequest() = default;
 
 bool LineRequest::read(std::uint32_t& active) noexcept {

@@ -11,7 +11,7 @@
 namespace strainwave {
 
 namespace {
-/// udev sets the permissions of a new channel a little after the kernel makes it.
+/// udev sets the permissions of a new channel shortly after the kernel creates it.
 constexpr int kExportTries = 100;
 constexpr std::chrono::milliseconds kExportTry{10};
 }  // namespace
@@ -46,8 +46,8 @@ void PwmChannel::export_channel(const PwmConfig& config, const std::string& wher
   }
 }
 
-// The kernel changes the polarity only of a channel that is off, and refuses a period below the duty. A channel that nobody has
-// used yet has no period, and kernels such as 6.1 refuse to apply any state without one, be it off.
+// The kernel changes the polarity only of a disabled channel and refuses a period below the duty. A channel
+// that was never used has no period. Kernels such as 6.1 then refuse every other setting, even to disable it.
 void PwmChannel::configure(const PwmConfig& config, const std::string& where) {
   if (read_attribute(folder_ / "enable", where) != "0") write_attribute(folder_ / "enable", "0", where);
   if (read_attribute(folder_ / "duty_cycle", where) != "0")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One channel of a PWM chip (sysfs). One system call into the kernel's PWM driver is
-// set_duty(): it may take a lock there, and allocates nothing. The constructor exports and configures the channel and may wait.
-// Source: the kernel's Documentation/driver-api/pwm.rst, ABI/testing/sysfs-class-pwm.
+// One channel of a PWM chip (sysfs). set_duty() makes one system call into the kernel's PWM driver. It
+// allocates nothing, but the driver may take a lock. The constructor exports and configures the channel and
+// may wait. Source: the kernel's Documentation/driver-api/pwm.rst, ABI/testing/sysfs-class-pwm.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,17 @@ struct PwmConfig {
 
 class PwmChannel {
  public:
-  /// Starts with `idle_duty` (0 to 1). Throws InputError: no such channel, a period that it cannot make.
+  /// Starts with `idle_duty` (0 to 1). Throws InputError for a missing channel or a period that the channel refuses.
   PwmChannel(const PwmConfig& config, double idle_duty, const std::string& where);
-  /// Idle duty; the channel stays on, because an output that is switched off has a level of its own.
+  /// Sets the idle duty. The channel stays on because the level of a disabled PWM output is not defined.
   ~PwmChannel();
   PwmChannel(const PwmChannel&) = delete;
   PwmChannel& operator=(const PwmChannel&) = delete;
 
-  /// `duty` is limited to 0 to 1. False when the kernel refuses; the duty is then unknown.
+  /// Clamps `duty` to 0..1. Returns false when the kernel refuses; the duty is then unknown.
   bool set_duty(double duty) noexcept;
   bool set_idle() noexcept { return set_duty(idle_duty_); }
-  /// The smallest step of the duty: the kernel counts nanoseconds.
+  /// Smallest step of the duty; the kernel counts in nanoseconds.
   double resolution() const noexcept { return 1.0 / static_cast<double>(period_ns_); }
 
  private:

@@ -11,7 +11,7 @@
 namespace strainwave {
 
 namespace {
-/// How often the levels are compared when no edge comes.
+/// Interval of the comparison of levels when no edge comes.
 constexpr int kIdle_ms = 10;
 }  // namespace
 
@@ -32,7 +32,7 @@ void QuadratureCounts::make_real_time() const {
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
   const sched_param parameters{config_.priority};
-  // Without the privilege it stays ordinary: then the kernel's buffer bridges delays, up to its size.
+  // Without the privilege the thread stays normal; the kernel's buffer then bridges delays, up to its size.
   ::pthread_setschedparam(::pthread_self(), config_.priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameters);
 }
 
@@ -63,8 +63,8 @@ void QuadratureCounts::decode() noexcept {
   }
 }
 
-// With no edge under way the levels must be those that the edges led to. One look does not tell: a real-time kernel delivers
-// events in a thread, so that a level may be seen before its edge.
+// Without pending edges the levels must match the decoded ones. Only two differences in a row are a fault: a
+// real-time kernel delivers events in a thread, so a level may be visible before its edge.
 void QuadratureCounts::compare_levels() noexcept {
   std::uint32_t levels = 0;
   if (!edges_.levels(levels)) return decoder_.fail(QuadratureFault::kDeviceGone);

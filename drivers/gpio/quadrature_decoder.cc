@@ -15,7 +15,7 @@ void QuadratureDecoder::reset(bool a, bool b, std::uint32_t last_sequence) noexc
   fault_ = QuadratureFault::kNone;
 }
 
-// A bucket that fills at the cap's rate and holds one burst.
+// A token bucket that fills at the maximum rate and holds one burst.
 bool QuadratureDecoder::too_fast(std::int64_t time_ns) noexcept {
   const double elapsed_s = seconds(std::max<std::int64_t>(0, time_ns - last_ns_));
   last_ns_ = time_ns;
@@ -31,7 +31,7 @@ QuadratureFault QuadratureDecoder::apply(const Edge& edge) noexcept {
   if (line == edge.active) return fault_ = QuadratureFault::kIllegalEdge;
   if (too_fast(edge.time_ns)) return fault_ = QuadratureFault::kOverSpeed;
   line = edge.active;
-  // After a rising step A == !B follows an edge of A, and A == B one of B.
+  // In forward motion the levels differ after an edge of A and are equal after an edge of B.
   const bool forward = edge.line == 0 ? a_ != b_ : a_ == b_;
   count_ += forward ? 1 : -1;
   return QuadratureFault::kNone;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts of an incremental encoder from the edges of its two lines, four per line pair. Pure, real-time safe.
+// Counts of an incremental encoder from the edges of its two lines, four per signal period. Pure, real-time safe.
 //
 // A leads B in the direction of rising counts:
 //   A  _/‾‾\__/‾‾\_      B  ___/‾‾\__/‾‾
-// Every edge must change its line, follow its predecessor in sequence, and not come faster than the cap: a
-// breach is a fault, and what is counted afterwards means nothing until reset().
+// Every edge must change its line, follow its predecessor in sequence, and keep below the maximum rate. A
+// violation is a fault; the count is then meaningless until reset().
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace strainwave {
 
 enum class QuadratureFault : std::int32_t {
   kNone = 0,
-  kIllegalEdge = 1,  ///< a line became what it was already: an edge is missing
-  kLostEvents = 2,   ///< a gap in the kernel's sequence, or levels that no edge led to
-  kOverSpeed = 3,    ///< faster than the cap
+  kIllegalEdge = 1,  ///< a line changed to the level that it had: an edge is missing
+  kLostEvents = 2,   ///< a gap in the kernel's sequence, or levels without an edge
+  kOverSpeed = 3,    ///< faster than the maximum rate
   kDeviceGone = 4,   ///< the kernel refuses to read
 };
 
 class QuadratureDecoder {
  public:
-  /// Edges that may come at once: one mechanical vibration around an edge, not a speed.
+  /// Edges allowed at once: a mechanical vibration around an edge is not a high speed.
   static constexpr double kBurst_edges = 16.0;
 
   explicit QuadratureDecoder(double max_rate_Hz) noexcept : max_rate_Hz_(max_rate_Hz) {}
 
-  /// The lines' levels now, and the sequence of the last edge before; ends a fault, keeps the count.
+  /// Takes the present levels and the sequence of the last edge. Ends a fault and keeps the count.
   void reset(bool a, bool b, std::uint32_t last_sequence) noexcept;
   QuadratureFault apply(const Edge& edge) noexcept;
   void fail(QuadratureFault fault) noexcept { fault_ = fault_ == QuadratureFault::kNone ? fault : fault_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One attribute file of sysfs that is kept open: a number is read or written in one system call, without
-// allocation. On this side read() and write() are real-time safe; the kernel's driver may take locks.
+// A sysfs attribute that stays open: reads or writes a number in one system call, without allocation. read()
+// and write() are real-time safe in user space; the kernel's driver may take locks.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace strainwave {
 class SysfsFile {
  public:
   enum class Access { kRead, kWrite };
-  /// Throws InputError naming `where` when the file cannot be opened.
+  /// Throws InputError with `where` when the file cannot be opened.
   SysfsFile(const std::filesystem::path& path, Access access, const std::string& where);
 
-  /// The number that the file holds, or nothing.
+  /// Returns the number in the file, or nothing when the file holds no number.
   std::optional<std::uint64_t> read() noexcept;
   bool write(std::uint64_t number) noexcept;
 
@@ -27,7 +27,7 @@ class SysfsFile {
   UniqueFd fd_;
 };
 
-/// Whole small attributes; not real-time. Throws InputError naming `where`.
+/// Read or write a whole small attribute. Not real-time. Throw InputError with `where`.
 std::string read_attribute(const std::filesystem::path& path, const std::string& where);
 void write_attribute(const std::filesystem::path& path, std::string_view text, const std::string& where);
 

@@ -8,7 +8,7 @@ namespace strainwave {
 
 TorqueOutput::TorqueOutput(const TorqueOutputConfig& config) noexcept
     : config_(config),
-      // At least one period: the bridge may take the new duty only at the end of its own period.
+      // At least one period: the bridge may apply the new duty only at the end of its own period.
       dead_periods_(
           std::max<std::int64_t>(1, std::llround(std::ceil(config.dead_time_s / config.period_s - 1e-9)))) {}
 
@@ -34,7 +34,7 @@ double TorqueOutput::limit_slew(double torque_Nm) noexcept {
   return torque_Nm_;
 }
 
-// Rounding must not pass a limit either.
+// Keeps rounding errors from exceeding the limits.
 double TorqueOutput::limited(double duty) const noexcept {
   return std::clamp(duty, config_.duty_min, config_.duty_max);
 }

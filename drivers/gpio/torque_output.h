@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
-// real-time safe. Joint side. Source of the motor's line: control/joint/motor_limits.h.
+// Converts a torque into a PWM duty, within the limits of the amplifier. Pure, real-time safe. Joint side.
+// Source of the motor's torque-speed line: control/joint/motor_limits.h.
 //
 // The amplifier makes a current from the duty:
 //   T = full scale * share
@@ -23,29 +23,29 @@ enum class BridgeKind { kSignMagnitude, kLockedAntiphase };
 struct TorqueOutputConfig {
   AmplifierKind amplifier = AmplifierKind::kCurrent;
   BridgeKind bridge = BridgeKind::kSignMagnitude;
-  double full_scale_Nm = 0.0;  ///< kCurrent: at the largest duty, > 0
+  double full_scale_Nm = 0.0;  ///< kCurrent: torque at the largest duty, > 0
   MotorLimits motor;           ///< kVoltage: its stall torque, finite, and its slope
   double duty_min = 0.0;       ///< 0 <= duty_min < duty_max <= 1
   double duty_max = 1.0;
-  double slew_Nm_s = 0.0;    ///< fastest change of torque; 0: at once
-  double dead_time_s = 0.0;  ///< without torque before the direction line changes
+  double slew_Nm_s = 0.0;    ///< limit of the rate of change; 0: no limit
+  double dead_time_s = 0.0;  ///< time without torque before the direction line changes
   double period_s = 0.001;
-  bool reversed = false;  ///< positive torque wants negative share
+  bool reversed = false;  ///< positive torque needs negative share
 };
 
 class TorqueOutput {
  public:
   struct Output {
     double duty = 0.0;
-    bool negative = false;           ///< the direction line
-    double torque_applied_Nm = 0.0;  ///< what that makes
+    bool negative = false;           ///< level of the direction line
+    double torque_applied_Nm = 0.0;  ///< torque that this output produces
   };
 
   explicit TorqueOutput(const TorqueOutputConfig& config) noexcept;
 
-  /// One period.
+  /// Advances by one period.
   Output step(double torque_Nm, double joint_velocity_rad_s) noexcept;
-  /// No torque at once, whatever the slew; the direction line stays.
+  /// Sets zero torque at once, without the slew limit; the direction line keeps its level.
   Output idle() noexcept;
   double idle_duty() const noexcept;
 
@@ -59,7 +59,7 @@ class TorqueOutput {
   std::int64_t dead_periods_;
   double torque_Nm_ = 0.0;  ///< after the slew limit
   bool negative_ = false;
-  std::int64_t waited_periods_ = 0;  ///< for a change of direction
+  std::int64_t waited_periods_ = 0;  ///< since a change of direction was requested
 };
 
 }  // namespace strainwave

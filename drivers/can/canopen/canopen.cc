@@ -20,11 +20,11 @@ CanFrame frame_of(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) n
 
 struct CodeText {
   std::uint16_t code;
-  std::uint16_t mask;  ///< of the code's digits that count
+  std::uint16_t mask;  ///< digits of the code that must match
   std::string_view text;
 };
 
-// The first match holds, so single codes stand before their classes. CiA 301 table 26 and CiA 402-2
+// The first match counts, so single codes stand before their classes. Source: CiA 301 table 26 and CiA 402-2
 // section 6.
 constexpr std::array kEmergencyTexts{
     CodeText{0x2310, 0xFFFF, "continuous over-current at the output"},
@@ -104,7 +104,7 @@ CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept {
 
 std::optional<NmtState> decode_heartbeat(const CanFrame& frame) noexcept {
   if (frame.size != 1) return std::nullopt;
-  // Bit 7 belongs to node guarding, which nobody asked for.
+  // Bit 7 belongs to node guarding, which is not used.
   const auto state = static_cast<NmtState>(frame.bytes[0]);
   switch (state) {
     case NmtState::kBootUp:

@@ -13,7 +13,7 @@ constexpr std::uint16_t kReceiveCommunication = 0x1400;
 constexpr std::uint16_t kReceiveMapping = 0x1600;
 constexpr std::uint16_t kTransmitCommunication = 0x1800;
 constexpr std::uint16_t kTransmitMapping = 0x1A00;
-/// Identifiers of PDO n lie 100h above those of PDO n - 1.
+/// The identifiers of PDO n are 100h above those of PDO n - 1.
 constexpr std::uint32_t kNumberStep = 0x100;
 constexpr std::uint32_t kIdentifierBits = kPdoInvalid | kMaxCanId;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Process data objects: the settings by which a drive sends and takes what we want, and the fields of a
-// frame. Pure functions; reading and writing fields is real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2
-// and 7.5.2.35 to 38.
+// Process data objects: the settings for the PDOs of a drive, and their layout. Pure functions; the noexcept
+// ones are real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2 and 7.5.2.35 to 38.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +18,10 @@ struct MappedObject {
   Entry entry;
   std::uint8_t bytes = 0;  ///< 1, 2, 4 or 8
 };
-/// Index, sub-index and length in bits, as the drive's mapping holds it.
+/// Returns index, sub-index and length in bits, in the format of the drive's mapping.
 std::uint32_t mapping_word(const MappedObject& object) noexcept;
 
-/// One PDO. Numbers count from 1; identifiers are those of the predefined connection set.
+/// One PDO. Numbers count from 1; the identifiers are those of the predefined connection set.
 struct Pdo {
   PdoDirection direction = PdoDirection::kTransmit;
   int number = 1;                      ///< 1..4
@@ -35,25 +34,25 @@ struct Pdo {
   Entry mapping(std::uint8_t sub_index) const noexcept;        ///< of 1600h or 1A00h onwards
 };
 
-/// Bit 31 of a PDO's identifier entry: it does not exist. Bit 30: no remote requests; a drive may not let it
-/// be changed.
+/// Bits of a PDO's identifier entry. Bit 31: the PDO is invalid. Bit 30: no remote requests; some drives do
+/// not let it be changed.
 inline constexpr std::uint32_t kPdoInvalid = 1U << 31U;
 inline constexpr std::uint32_t kPdoNoRemoteRequest = 1U << 30U;
 
-/// One entry to write, and to read back.
+/// An entry to write and then read back.
 struct SdoWrite {
   Entry entry;
   std::uint32_t value = 0;
   std::uint8_t bytes = 4;        ///< 1, 2 or 4
-  std::uint32_t verified = ~0U;  ///< bits that reading back must find again
+  std::uint32_t verified = ~0U;  ///< bits that are compared with the value read back
   std::string purpose;           ///< for messages
 };
 
-/// What to write, in the standard's order: invalid, no objects, type, objects, their count, valid.
-/// `old_identifier` is what the drive holds now; its bit 30 is kept. An identifier may not change while its PDO
-/// exists, so the first write changes bit 31 alone and the last one brings the new identifier.
+/// Returns the writes in the order of the standard: invalid, no objects, type, objects, their count, valid.
+/// `old_identifier` is the drive's present entry, whose bit 30 is kept. An identifier must not change while
+/// its PDO is valid. So the first write changes only bit 31, and the last one writes the new identifier.
 std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::uint32_t old_identifier);
-/// Switches off a PDO that is not wanted.
+/// Returns the write that switches off an unused PDO.
 SdoWrite pdo_switched_off(PdoDirection direction, int number, std::uint32_t old_identifier);
 
 }  // namespace strainwave::canopen

@@ -12,7 +12,7 @@ namespace strainwave::canopen {
 
 namespace {
 
-// Command specifiers in bits 7..5 of the first byte: of the client (ours) and of the server (the drive's).
+// Command specifiers in bits 7..5 of the first byte: client is this daemon, server is the drive.
 constexpr unsigned kSpecifierShift = 5;
 constexpr std::uint8_t kClientDownloadSegment = 0;
 constexpr std::uint8_t kClientDownload = 1;
@@ -96,7 +96,7 @@ SdoTransfer::Action SdoTransfer::answer(const CanFrame& frame) {
   if (state_ != State::kBusy) return Action::kIgnore;
   if (frame.size != kMaxCanBytes) return Action::kIgnore;
   if (specifier_of(frame) == kAbort) {
-    // The abort of an earlier transfer, which we gave up, names another entry.
+    // The abort of an earlier transfer, which we gave up, carries another entry.
     if (!names_our_entry(frame)) return Action::kIgnore;
     state_ = State::kAborted;
     abort_code_ = static_cast<std::uint32_t>(little_endian(&frame.bytes[4], 4));
@@ -120,7 +120,7 @@ bool SdoTransfer::names_our_entry(const CanFrame& frame) const noexcept {
 }
 
 SdoTransfer::Action SdoTransfer::answer_upload_initiate(const CanFrame& frame) {
-  // A late answer to a transfer that was given up: of another entry, or of another kind.
+  // A late answer to a transfer that was given up has another entry or specifier.
   if (specifier_of(frame) != kServerUpload || !names_our_entry(frame)) return Action::kIgnore;
   const std::uint8_t first = frame.bytes[0];
   const bool size_told = (first & kSizeTold) != 0;
@@ -153,7 +153,7 @@ SdoTransfer::Action SdoTransfer::answer_upload_segment(const CanFrame& frame) {
     return finish();
   }
   if (announced_ != 0 && value_.size() >= announced_) return refuse(SdoAbort::kLengthMismatch);
-  // A drive that sends empty segments for ever would never end.
+  // Empty segments could make the transfer endless.
   if (count == 0) return refuse(SdoAbort::kLengthMismatch);
   toggle_ = !toggle_;
   return ask_next_segment();

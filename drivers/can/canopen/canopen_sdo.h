@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One SDO transfer as a state machine without I/O: what to send, what the answer means. Expedited and
-// segmented, both ways. Real-time safe but for the value's vector; used at start-up and by background threads
-// only. Source: CiA 301 v4.2.0, section 7.2.4.3.
+// One SDO transfer as a state machine without I/O: the frames to send and the meaning of the answers.
+// Expedited and segmented, both ways. Real-time safe except for the vector of the value. Only start-up and
+// background threads use it. Source: CiA 301 v4.2.0, section 7.2.4.3.
 #pragma once
 
 #include <compare>
@@ -19,16 +19,16 @@ namespace strainwave::canopen {
 struct Entry {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  // clang-tidy 14 takes the 0 that a comparison is compared with for a pointer.
+  // clang-tidy 14 mistakes the 0 in the generated comparison for a pointer.
   auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 /// "6076h:00"
 std::string to_text(Entry entry);
 
-/// A value longer than this is refused: names of devices are the longest that is ever read.
+/// Longer values are refused: device names are the longest values that are read.
 inline constexpr std::size_t kMaxSdoBytes = 1024;
 
-/// Abort codes of our own use (CiA 301 table 22).
+/// Abort codes that we use (CiA 301 table 22).
 enum class SdoAbort : std::uint32_t {
   kToggle = 0x05030000,
   kTimeout = 0x05040000,
@@ -40,10 +40,10 @@ enum class SdoAbort : std::uint32_t {
   kNoSubIndex = 0x06090011,
   kGeneral = 0x08000000,
 };
-/// The abort code in words; every code of the standard.
+/// Returns the text of an abort code; knows every code of the standard.
 std::string_view sdo_abort_text(std::uint32_t code) noexcept;
 
-/// The request that writes the lowest `bytes` (1 to 4) of `value`, all in one frame. Real-time safe.
+/// Returns the request that writes the lowest `bytes` (1 to 4) of `value` in one frame. Real-time safe.
 CanFrame expedited_download(std::uint8_t node, Entry entry, std::uint32_t value, std::size_t bytes) noexcept;
 
 class SdoTransfer {
@@ -51,28 +51,28 @@ class SdoTransfer {
   enum class State { kBusy, kDone, kAborted };
   enum class Action {
     kSend,    ///< send request() and wait for the next answer
-    kIgnore,  ///< the frame belongs to another transfer; wait on
+    kIgnore,  ///< ignore the frame, which belongs to another transfer; wait on
     kFinish,  ///< state() is kDone, or the drive aborted
-    kAbort,   ///< the drive answered what it must not: send request(), which tells it so
+    kAbort,   ///< the answer was invalid: send request(), which tells the drive
   };
 
-  /// Begins to read `entry` of `node`.
+  /// Starts to read `entry` of `node`.
   static SdoTransfer upload(std::uint8_t node, Entry entry);
-  /// Begins to write `value` of 1..kMaxSdoBytes bytes.
+  /// Starts to write `value` of 1..kMaxSdoBytes bytes.
   static SdoTransfer download(std::uint8_t node, Entry entry, std::span<const std::uint8_t> value);
 
-  /// The frame to send: first, and after each kSend or kAbort.
+  /// The frame to send at the start, and after each kSend or kAbort.
   const CanFrame& request() const noexcept { return request_; }
   /// Takes a frame from the drive's SDO identifier.
   Action answer(const CanFrame& frame);
-  /// Gives up: request() then tells the drive.
+  /// Aborts the transfer; request() then tells the drive.
   void abort(SdoAbort reason) noexcept;
 
   State state() const noexcept { return state_; }
   Entry entry() const noexcept { return entry_; }
-  /// Why, when kAborted.
+  /// The reason, when kAborted.
   std::uint32_t abort_code() const noexcept { return abort_code_; }
-  /// What was read, when an upload is kDone.
+  /// The value read, when an upload is kDone.
   const std::vector<std::uint8_t>& value() const noexcept { return value_; }
 
  private:
@@ -95,8 +95,8 @@ class SdoTransfer {
   State state_ = State::kBusy;
   CanFrame request_;
   std::vector<std::uint8_t> value_;
-  std::size_t sent_ = 0;       ///< bytes of a segmented download
-  std::size_t announced_ = 0;  ///< bytes of a segmented upload; 0: not told
+  std::size_t sent_ = 0;       ///< bytes sent of a segmented download
+  std::size_t announced_ = 0;  ///< length of a segmented upload; 0: unknown
   bool toggle_ = false;
   std::uint32_t abort_code_ = 0;
 };

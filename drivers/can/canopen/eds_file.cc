@@ -19,14 +19,14 @@ using Section = std::map<std::string, std::string>;
 
 constexpr std::size_t kMaxBytes = 4U << 20U;
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
-/// Ctrl-Z, which old editors put behind the last line.
+/// Ctrl-Z, which old editors append to the file.
 constexpr char kEndOfFile = '\x1A';
 constexpr std::int64_t kMaxNodeId = 127;
 constexpr std::uint16_t kFirstIndex = 0x1000;
-/// ObjectType (CiA 306-1): arrays and records have others.
+/// ObjectType of a variable (CiA 306-1); arrays and records have other numbers.
 constexpr std::int64_t kVariable = 7;
 constexpr std::int64_t kReal32 = 0x08;
-/// An array that lists no sub-entries of its own has at most so many.
+/// Maximum number of entries of an array without its own sub-entries (CompactSubObj).
 constexpr std::int64_t kMaxCompact = 254;
 
 struct Type {
@@ -34,7 +34,7 @@ struct Type {
   std::size_t bytes;
   bool is_signed;
 };
-/// CiA 301, table 44; what is not here is text or data.
+/// CiA 301, table 44; other types are text or data.
 constexpr std::array kTypes{Type{0x01, 1, false}, Type{0x02, 1, true},  Type{0x03, 2, true},
                             Type{0x04, 4, true},  Type{0x05, 1, false}, Type{0x06, 2, false},
                             Type{0x07, 4, false}, Type{0x08, 4, false}, Type{0x15, 8, true},
@@ -53,7 +53,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Decimal, 0x hexadecimal, or 0 octal, as the standard has it; with a sign. Some files pad decimal numbers: 08 is 8.
+/// Reads a decimal, hexadecimal (0x) or octal (0) number with a sign, as in the standard. Some files pad decimal numbers: 08 is 8.
 std::optional<std::int64_t> plain_number(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative) text.remove_prefix(1);
@@ -69,7 +69,7 @@ std::optional<std::int64_t> plain_number(std::string_view text) {
   return static_cast<std::int64_t>(negative ? 0 - number : number);
 }
 
-/// A number, or several that are added: "$NODEID+0x180".
+/// Reads a number or a sum of numbers: "$NODEID+0x180".
 std::optional<std::int64_t> number_of(std::string_view text, std::uint8_t node_id) {
   const std::string small = lower(text);
   std::uint64_t sum = 0;
@@ -85,8 +85,8 @@ std::optional<std::int64_t> number_of(std::string_view text, std::uint8_t node_i
   return static_cast<std::int64_t>(sum);
 }
 
-/// The number of this type that has these bits: 0x8000 is -32768 of a signed one, and -1 is 0xFFFF of an unsigned one. Nothing when the
-/// type is too small.
+/// Returns the number of this type with the same bits: as signed, 0x8000 is -32768; as unsigned, -1 is
+/// 0xFFFF. Returns nothing when the type is too small.
 std::optional<std::int64_t> fitted(std::int64_t number, std::size_t bytes, bool is_signed) {
   if (bytes >= sizeof number) return number;
   const std::int64_t span = std::int64_t{1} << (8 * bytes);
@@ -95,7 +95,7 @@ std::optional<std::int64_t> fitted(std::int64_t number, std::size_t bytes, bool 
   return number < 0 ? number + span : number;
 }
 
-/// The section of an object or one of its entries: "1018", "1018sub1", "1018value".
+/// The section of an object or of one of its entries: "1018", "1018sub1", "1018value".
 struct SectionName {
   std::uint16_t index = 0;
   std::string_view suffix;
@@ -143,7 +143,7 @@ class Reader {
   }
 
  private:
-  // What is neither a section nor a key is left behind by editors: a description's second line, for example.
+  // Ignores lines that are neither section nor key, such as the second line of a description.
   void take(std::string_view line) {
     line = trimmed(line.substr(0, line.find(';')));
     if (line.starts_with('[')) {
@@ -157,11 +157,11 @@ class Reader {
       section_.emplace(lower(trimmed(line.substr(0, equals))), trimmed(line.substr(equals + 1)));
   }
 
-  // [1018] and [1018sub1] are objects; what else there is (file and device information, lists) is not needed.
+  // [1018] and [1018sub1] are objects; other sections (file and device information, lists) are not needed.
   void finish_section() {
     const Section section = std::exchange(section_, {});
     const std::string name = std::exchange(section_name_, {});
-    // The standard's own spelling, and the right one.
+    // The standard misspells this section's name; both spellings occur.
     if (name == "devicecomissioning" || name == "devicecommissioning")
       if (const auto node = number_of(text_of(section, "nodeid"), 0);
           node && *node >= 1 && *node <= kMaxNodeId)
@@ -181,7 +181,7 @@ class Reader {
     return found == section.end() ? std::string() : found->second;
   }
 
-  // A variable; or the head of a record or array, whose entries have sections of their own, or are all alike.
+  // A head is a variable, or a record or array. The entries of the latter have their own sections, or are all alike (CompactSubObj).
   void add_head(std::uint16_t index, const Section& section) {
     const auto count = number_of(text_of(section, "compactsubobj"), 0).value_or(0);
     const auto object_type = number_of(text_of(section, "objecttype"), 0).value_or(kVariable);
@@ -206,7 +206,7 @@ class Reader {
         compact_values_[{index, static_cast<std::uint8_t>(*sub_index)}] = value;
   }
 
-  // An entry's own section counts, wherever the head of its object stands.
+  // An entry's own section has priority over the head of its object, in any order.
   void keep(Entry key, const Section& section) {
     EdsEntry entry;
     const auto unclear = [&](const char* what, const std::string& value) {
@@ -228,7 +228,7 @@ class Reader {
     entry.writable = access != "ro" && access != "const";
     if (entry.readable && entry.writable && !access.starts_with("rw")) unclear("AccessType", access);
     entry.mappable = number_of(text_of(section, "pdomapping"), 0).value_or(0) != 0;
-    // A REAL32's default is a decimal fraction, which nothing here needs.
+    // The default of a REAL32 is a decimal fraction, which is not needed here.
     if (type != kReal32) {
       const std::string set = text_of(section, "parametervalue");
       const std::string value = set.empty() ? text_of(section, "defaultvalue") : set;
@@ -247,7 +247,7 @@ class Reader {
   }
 
   EdsFile result_;
-  std::set<Entry> heads_;  ///< entries that only the head of their object describes
+  std::set<Entry> heads_;  ///< entries described only by the head of their object
   std::map<Entry, std::string> compact_values_;
   Section section_;
   std::string section_name_;

@@ -13,7 +13,7 @@ namespace strainwave::canopen {
 namespace {
 
 constexpr std::size_t kBatch = 16;
-/// How long a full queue is given to empty itself.
+/// Waiting time for a full queue, per attempt.
 constexpr std::int64_t kQueueWait_ns = 1'000'000;
 constexpr int kSendAttempts = 50;
 constexpr int kForgottenBatches = 1000;
@@ -73,7 +73,7 @@ std::optional<CanFrame> SdoClient::next_frame(std::uint32_t id, std::int64_t dea
   }
 }
 
-// Bounded, so that a flooded bus cannot keep us here. That the interface was down once is past as well.
+// The number of batches is limited so that a flooded bus cannot keep this thread here. An earlier link loss is skipped as well.
 void SdoClient::forget_arrived() {
   for (int batch = 0; batch < kForgottenBatches; ++batch) {
     arrived_.resize(kBatch);
@@ -85,7 +85,7 @@ void SdoClient::forget_arrived() {
 }
 
 void SdoClient::run(SdoTransfer& transfer) {
-  // Answers of transfers that were given up must not be taken for this one's.
+  // Late answers of transfers that were given up must not count for this one.
   forget_arrived();
   send(transfer.request());
   std::int64_t deadline_ns = port_.now_ns() + timeout_ns_;
@@ -121,7 +121,7 @@ std::vector<std::uint8_t> SdoClient::upload(Entry entry) {
 
 std::uint64_t SdoClient::upload_number(Entry entry, std::size_t bytes) {
   const std::vector<std::uint8_t> value = upload(entry);
-  // Some drives answer small numbers with four bytes and do not say how many count.
+  // Some drives answer with four bytes for a small number and do not say how many are valid.
   const bool padded = value.size() == 4 && bytes < 4;
   if (value.size() != bytes && !padded)
     throw SdoError(who_ + ": node " + std::to_string(node_) + ": reading " + to_text(entry) + ": " +
@@ -159,7 +159,7 @@ void SdoClient::download(Entry entry, std::uint64_t value, std::size_t bytes) {
 void SdoClient::write_verified(const SdoWrite& write) {
   const std::uint64_t mask =
       write.bytes >= 4 ? write.verified : write.verified & ((1U << 8U * write.bytes) - 1U);
-  // What is refused may be what the value means (an object that cannot be mapped), not the entry that it is written to.
+  // The abort may concern the value (an object that cannot be mapped), not the entry that is written, so the purpose is added.
   const std::uint64_t kept = [&] {
     try {
       download(write.entry, write.value, write.bytes);
@@ -206,7 +206,7 @@ bool SdoClient::two_answer(Entry entry, std::int64_t wait_ns) {
 }
 
 bool SdoClient::reset_communication(std::int64_t timeout_ns) {
-  // The boot-up message of an earlier restart is none of this one.
+  // A boot-up message of an earlier restart must not count.
   forget_arrived();
   send_nmt(NmtCommand::kResetCommunication);
   const std::int64_t deadline_ns = port_.now_ns() + timeout_ns;

@@ -35,7 +35,7 @@ constexpr MappedObject kProbePosition{{0x60BA, 0}, 4};
 constexpr std::uint8_t kEverySync = 1;
 constexpr int kMaxSyncDivider = 240;
 
-/// Puts `object` into `pdo` if there is room for it.
+/// Maps `object` into `pdo` if there is room for it.
 PdoLayout::Field map(Pdo& pdo, const MappedObject& object) {
   const std::size_t offset = pdo.bytes();
   if (offset + object.bytes > kMaxCanBytes) return {};
@@ -49,7 +49,7 @@ const MappedObject& target_of(DriveMode mode) {
                                         : kMappedTargetVelocity;
 }
 
-/// RPDO1 of a drive that closes its own loop is full.
+/// The torque offset fills RPDO1 of a drive that closes its own loop, so further orders go to RPDO2.
 void map_orders(const DriveConfig& config, PdoLayout& layout) {
   layout.command = {PdoDirection::kReceive, 1, kEverySync, {kMappedControlword}};
   layout.offsets = {PdoDirection::kReceive, 2, kEverySync, {}};

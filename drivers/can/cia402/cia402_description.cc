@@ -38,7 +38,7 @@ Description describe(SdoClient& client) {
   try {
     found.device_name = client.upload_text(kDeviceName);
   } catch (const canopen::SdoError&) {
-    // A name is a courtesy.
+    // The name is optional; it only serves messages.
   }
   return found;
 }

@@ -13,10 +13,10 @@ namespace {
 using canopen::CobId;
 using canopen::NmtState;
 
-// More than any estimate goes back.
+// Upper limit of skipped SYNCs; no estimator looks back that far.
 constexpr std::int64_t kMostSkipped = 1000;
 
-/// The first of RPDO1.
+/// The first field of RPDO1.
 constexpr PdoLayout::Field kControlwordField{1, 0, 2};
 
 // 60FDh
@@ -45,10 +45,10 @@ void Node::begin_cycle(std::int64_t now_ns) noexcept {
   if (setup_.look()) forget_drive();
 }
 
-// A drive that has just been set up starts anew for us as well.
+// Resets the loop's state of a drive that has just been set up.
 void Node::forget_drive() noexcept {
   power_.restart();
-  // The order to clear a fault was what began this set-up: it is the drive's own fault's as well.
+  // The operator's order to clear a fault caused this set-up, so it also resets a fault of the drive.
   if (std::exchange(clear_ordered_, false)) power_.begin_reset(now_ns_);
   position_scale_ = PositionScale(config_.units);
   probe_.restart();
@@ -81,8 +81,8 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
   }
 }
 
-// A position that is late now and then is a matter of the bus; one that stays late misleads the control law, which takes it
-// for newer than it is.
+// A position that is late occasionally only shows a busy bus. One that stays late misleads the control law,
+// which assumes a newer one.
 void Node::judge_age(std::int64_t kernel_time_ns) noexcept {
   age_.sample(kernel_time_ns);
   const bool late =
@@ -157,7 +157,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   supervise();
   const NodeFault shown = watch_.shown(present_trouble());
   ActuatorReading reading;
-  // An incremental encoder counts from wherever the drive was switched on.
+  // An incremental encoder starts to count where the drive was switched on.
   reading.position_lost = !config_.absolute_encoder && (!setup_.ready() || setup_.must_be_repeated() ||
                                                         restarted_.fault != ActuatorFault::kNone);
   reading.joint_position_rad = position_rad_;
@@ -203,16 +203,16 @@ Goal Node::goal() const noexcept {
 }
 
 void Node::transmit(CanTransmitter& bus) noexcept {
-  // A drive that said it restarted gets the order to stop, too: if it did not restart after all it still has torque, and if
-  // it did it takes no PDO.
+  // A drive that reported a restart gets the stop order, too. If it has not restarted, it still has torque;
+  // if it has, it ignores PDOs.
   if (!setup_.ready()) return;
   transmit_order(bus);
   if (last_resort_.due(now_ns_) && bus.send(last_resort_.frame())) last_resort_.sent(now_ns_);
-  // A stop is done when the drive says that it has no torque.
+  // A stop is complete when the drive reports that it has no torque.
   if (fresh_ && has_status_ && !power_.has_torque()) stop_ordered_ = false;
 }
 
-// A drive that closes its own loop goes on with its last order where positions stay away; one that obeys torque must not.
+// Without positions, a drive that closes its own loop continues with its orders; a torque-controlled drive must not.
 void Node::transmit_order(CanTransmitter& bus) noexcept {
   const Goal wanted = goal();
   std::uint16_t controlword = power_.controlword(wanted, now_ns_);

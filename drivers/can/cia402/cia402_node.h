@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One CiA 402 drive in the loop: its frames in, its state, its torque out, and every way in which it can
-// fail. The constructor takes a checked configuration; set_up() and serve() block and run outside the loop;
-// everything from begin_cycle() on is real-time safe.
+// One CiA 402 drive in the loop: frames, power state, orders, and supervision. The constructor takes a
+// checked configuration. set_up() and serve() block and run outside the loop. Everything from begin_cycle()
+// on is real-time safe.
 //
-// Faults are latched while the drive is in use. While it is not, they are reported as long as their cause lasts,
-// so that enabling shows them. A drive that has restarted or was out of sight is set up again by the
-// background thread, after clear_fault() only; unless its encoder is absolute, its position is then not known
-// any more. A drive with torque that process data do not reach is disabled by other ways: last_resort.h.
+// While the drive is in use, faults are latched. Otherwise they are reported as long as their cause lasts, so
+// that a failed enabling has a visible reason. After a restart or a lost connection, clear_fault() makes the
+// background thread set the drive up again. Unless its encoder is absolute, its position is then unknown. If
+// process data do not reach a drive with torque, last_resort.h disables it.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@
 
 namespace strainwave::cia402 {
 
-/// ActuatorReading::drive_error of these drives in words.
+/// Returns ActuatorReading::drive_error of these drives in words.
 std::string drive_error_text(std::uint32_t drive_error);
 
 class Node final : public CanNode {
@@ -93,15 +93,15 @@ class Node final : public CanNode {
   std::int64_t sync_to_position_ns_ = 0;
   SetUpState setup_;
   LatestValue<TemperatureSample> sdo_temperature_;  ///< from the background thread
-  LatestValue<std::uint8_t> sdo_mode_;              ///< likewise
-  // Start-up and background thread alone.
-  bool identified_ = false;  ///< it is the drive that the configuration means, and may be written to
+  LatestValue<std::uint8_t> sdo_mode_;              ///< from the background thread
+  // Only start-up and the background thread use these.
+  bool identified_ = false;  ///< the drive has the configured identity and may be written to
   std::int64_t sdo_due_ns_ = 0;
   bool sdo_failed_ = false;
 
-  // The loop alone.
+  // Only the loop uses these.
   std::int64_t now_ns_ = 0;
-  int skipped_syncs_ = 0;  ///< before this period
+  int skipped_syncs_ = 0;  ///< SYNCs not sent before this period
   PowerSequence power_;
   PositionScale position_scale_;
   TouchProbe probe_;
@@ -111,14 +111,14 @@ class Node final : public CanNode {
   JointInputs inputs_;
   double pdo_temperature_C_ = 0.0;
   std::int64_t pdo_temperature_ns_ = 0;
-  std::int64_t followed_ns_ = 0;  ///< when the drive last followed, or had no torque to follow
-  bool followed_ = false;         ///< since operation was enabled
+  std::int64_t followed_ns_ = 0;  ///< when the drive last followed its setpoint, or had no torque
+  bool followed_ = false;         ///< the drive has followed since operation was enabled
   int missed_ = 0;
-  std::uint32_t emergency_ = 0;  ///< the last one, until the drive takes it back
+  std::uint32_t emergency_ = 0;  ///< the last one, until the drive withdraws it
   NodeFault restarted_;          ///< boot-up or another network state; ends by a new set-up
   NodeWatch watch_;
   SampleAge age_;
-  int late_samples_ = 0;  ///< in a row, later than delay_periods allows
+  int late_samples_ = 0;  ///< consecutive samples later than delay_periods allows
   LastResort last_resort_;
   ActuatorCommand command_;
   bool fresh_ = false;
@@ -127,7 +127,7 @@ class Node final : public CanNode {
   bool wrong_mode_ = false;
   std::uint8_t shown_mode_ = 0;
   bool stop_ordered_ = false;
-  bool clear_ordered_ = false;  ///< and the set-up that it needs is not done yet
+  bool clear_ordered_ = false;  ///< the fault is to be cleared after the pending set-up
 };
 
 }  // namespace strainwave::cia402

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of cia402_node.h that says what is a fault, and what the drive can do for us now.
+// The part of cia402_node.h that detects faults and derives the drive state.
 #include <algorithm>
 
 #include "drivers/can/cia402/cia402_node.h"
@@ -8,16 +8,16 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// Statusword bit 4: the supply of the power stage is there.
+/// Statusword bit 4: the power stage has its supply voltage.
 constexpr std::uint16_t kVoltageEnabled = 1U << 4U;
-/// Bit 12, but in TQ: the drive follows what it is ordered.
+/// Bit 12, except in TQ: the drive follows its setpoint.
 constexpr std::uint16_t kFollowing = 1U << 12U;
-/// Once it has followed; a statusword may be of the period before the order.
+/// Time allowed once the drive has followed; a statusword may be older than the order.
 constexpr std::int64_t kNotFollowing_ns = 20'000'000;
 constexpr std::uint16_t kVoltageErrors = 0x3000;
 constexpr std::uint16_t kErrorClass = 0xF000;
 
-/// The fault that an emergency means: what begins with 3 is about the supply.
+/// Returns the fault for an emergency; codes that begin with 3 concern the supply.
 ActuatorFault fault_of_emergency(std::uint32_t emergency) noexcept {
   return (emergency & kErrorClass) == kVoltageErrors ? ActuatorFault::kPowerLost : ActuatorFault::kDriveFault;
 }
@@ -29,8 +29,8 @@ void Node::receive_emergency(const canopen::Emergency& emergency) noexcept {
   if (emergency_ != 0 && command_.enable) watch_.latch({fault_of_emergency(emergency_), emergency_});
 }
 
-// Whoever was out of sight may have restarted, or left its network state, as the standard has it when we were
-// out of its.
+// While unreachable, the drive may have restarted or left its network state, as the standard prescribes when
+// it misses our heartbeat.
 void Node::note_bus(const NodeFault& trouble) noexcept {
   watch_.note_bus(trouble);
   if (trouble.fault == ActuatorFault::kConnectionLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
@@ -49,18 +49,18 @@ void Node::supervise() noexcept {
   if (!command_.enable) return;
   watch_.latch(present);
   watch_.latch(power_trouble());
-  // What it is late by is measured from its set-up on.
+  // The lateness is measured relative to set-up, so a late drive needs a new one.
   if (late()) setup_.wear_out();
 }
 
-// What tells of a lost network state or of missing positions is believed only while no position comes: one that comes with our
+// A lost network state or missing positions count only while no position comes. A position that answers our
 // SYNC shows that process data arrive.
 bool Node::out_of_reach() const noexcept {
   return setup_.ready() && !fresh_ &&
          (missed_ > config_.quick_stop_after || restarted_.fault != ActuatorFault::kNone);
 }
 
-// What holds as long as its cause lasts, in use or not.
+// Faults that last as long as their cause, whether the drive is in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (watch_.bus_is_well() && setup_.ready() && restarted_.fault != ActuatorFault::kNone) return restarted_;
   const NodeFault link = watch_.connection_trouble(setup_, now_ns_);
@@ -75,7 +75,7 @@ bool Node::following() const noexcept {
          (!shown || (power_.statusword() & kFollowing) != 0);
 }
 
-// What is a fault only of a drive that is in use.
+// Faults that concern only a drive in use.
 NodeFault Node::power_trouble() const noexcept {
   if (late())
     return watch_.trouble(

@@ -16,7 +16,7 @@ namespace {
 
 using canopen::CobId;
 
-/// As often as a temperature is read.
+/// Equal to the default interval of a temperature.
 constexpr double kModePeriod_s = 1.0;
 
 PowerTimes times_of(const DriveConfig& config) noexcept {
@@ -144,13 +144,13 @@ void Node::end_operation(CanPort& port) noexcept {
 }
 
 void Node::shut_down(CanPort& port) noexcept {
-  // A drive that is none of ours stays as it is.
+  // A drive that was not identified is left unchanged.
   if (!identified_) return;
   try {
     canopen::SdoClient client(port, config_.node_id, config_.name);
     release_drive(client, config_);
   } catch (const std::exception&) {
-    // A drive that cannot be reached is disabled by its own supervision of our heartbeat.
+    // If the drive cannot be reached, its supervision of our heartbeat disables it.
   }
 }
 

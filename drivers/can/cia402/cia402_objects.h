@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The objects of the drive profile (CiA 402-2) that more than one file reads, writes or maps.
+// Objects of the drive profile (CiA 402-2) that several files use.
 #pragma once
 
 #include "drivers/can/canopen/canopen_sdo.h"

@@ -34,21 +34,21 @@ constexpr Entry kInterpolationExponent{0x60C2, 2};
 
 constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
 
-/// Of an SDO. Start-up needs about 120, so it takes some 13 s at most.
+/// Longest SDO answer allowed. Start-up needs about 120 answers, so it takes 13 s at most.
 constexpr std::int64_t kSlowestAnswer_ns = 100'000'000;
 constexpr std::int64_t kPoll_ns = 5'000'000;
-/// Among the objects of RPDO1.
+/// Index of the target among the objects of RPDO1.
 constexpr std::size_t kTargetPlace = 1;
 constexpr std::int64_t kDisableWait_ns = 500'000'000;
-/// Two nodes that answer do so one right after the other.
+/// Two nodes with the same id answer in quick succession.
 constexpr std::int64_t kSecondAnswer_ns = 20'000'000;
 
 std::int64_t boot_timeout_ns(const DriveConfig& config) {
   return nanoseconds(config.boot_timeout_s);
 }
 
-/// A drive that has just been switched on is silent or slow for a while; resetting it would only let it begin anew. One that stays
-/// slow would keep start-up busy for half a minute.
+/// A drive is silent or slow for a while after power-on, and a reset would only make it start again. A drive
+/// that stays slow would keep start-up busy for half a minute.
 void wait_until_it_answers(SdoClient& client, const DriveConfig& config) {
   const std::int64_t deadline_ns = client.port().now_ns() + boot_timeout_ns(config);
   std::optional<std::int64_t> took_ns;
@@ -78,7 +78,7 @@ void reset_communication(SdoClient& client, const DriveConfig& config) {
                        " of the reset of its communication: it takes longer to start, or does not reset");
 }
 
-/// An order to start takes some drives a while; until then their heartbeat would look like a lost network state.
+/// Some drives need time to start; until then their heartbeat would look like a lost network state.
 void start_node(SdoClient& client, const DriveConfig& config) {
   client.send_nmt(NmtCommand::kStart);
   if (!client.wait_for_state(canopen::NmtState::kOperational, boot_timeout_ns(config)))
@@ -99,7 +99,7 @@ void check_identity(SdoClient& client, const Identity& wanted, const Description
   compare("serial_number", wanted.serial_number, found.serial_number);
 }
 
-// The drive must notice when we are gone, and must do something about it: nothing else protects then.
+// The drive must notice the loss of this daemon and react: nothing else protects the joint then.
 void configure_supervision(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
   const std::uint32_t consumer =
       static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
@@ -140,7 +140,7 @@ void configure_supervision(SdoClient& client, const DriveConfig& config, std::ve
     client.write_verified({kEmergencyIdentifier, wanted, 4, ~0U, "identifier of emergency messages"});
 }
 
-/// A period as a number of one byte and a power of ten of seconds.
+/// Writes the period; 60C2h takes it as a one-byte number and a power of ten of seconds.
 void configure_period(SdoClient& client, const DriveConfig& config) {
   const auto period_us = static_cast<std::uint32_t>(std::lround(config.period_s * 1e6));
   (void)client.write_if_writable({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
@@ -160,7 +160,7 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
                          "unit of the interpolation period"});
 }
 
-/// No torque, whatever the drive did before: another daemon may have died with it enabled.
+/// Removes the torque whatever the drive did before: another daemon may have died while the drive was enabled.
 void take_torque_off(SdoClient& client, const DriveConfig& config) {
   if (!closes_loop(config.drive_mode)) client.download(kTargetTorque, 0, 2);
   client.download(kControlword, controlword::kDisableVoltage, 2);
@@ -185,7 +185,7 @@ void report_found(Found& found, const Description& description, const DriveConfi
     text << ", rated " << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm
          << " N.m";
   found.report.push_back(text.str());
-  // Where the configuration names the maker it was warned of this already.
+  // If the configuration names the vendor, its reader has already given this warning.
   if (const auto doubt = torque_unit_doubt(description.vendor_id, config.units);
       doubt && !config.identity.vendor_id)
     found.report.push_back(config.name + ": warning: rated_torque_unit: " + *doubt);
@@ -218,7 +218,7 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
   reset_communication(client, config);
   take_torque_off(client, config);
   found.mode = named ? *named : choose_mode(client, config.drive_mode, {});
-  // Also back, where a repeated start-up finds another drive.
+  // Restores the entry as well, in case a repeated start-up finds another drive.
   if (config.drive_mode == DriveMode::kPosition)
     layout.command.objects[kTargetPlace].entry =
         found.mode == OperationMode::kInterpolatedPosition ? kInterpolatedTarget : kTargetPosition;

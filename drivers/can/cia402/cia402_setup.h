@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bringing a CiA 402 drive to where the loop can use it: identify, check, configure, read back, start; it
-// stays disabled. Objects that the profile leaves to the vendor are used where they are. Blocking; not real-time. docs/can.md shows the sequence frame by frame. Source: CiA 301 and
-// CiA 402-2.
+// Prepares a CiA 402 drive for the loop: identifies, checks, configures, reads back and starts it; the drive
+// stays disabled. Optional objects are used if the drive has them. Blocking; not real-time. docs/can.md shows
+// the sequence frame by frame. Source: CiA 301 and CiA 402-2.
 #pragma once
 
 #include "drivers/can/canopen/sdo_client.h"
@@ -10,26 +10,26 @@
 
 namespace strainwave::cia402 {
 
-/// Whether it is the drive that the configuration means; reads only. A drive that is still starting has boot_timeout_s to
-/// answer. Throws InputError naming joint, node and what is wrong: then nothing has been changed.
+/// Checks that the drive is the configured one; reads only. A starting drive has boot_timeout_s to answer.
+/// Throws InputError with joint, node and problem; the drive is then unchanged.
 Description identify_drive(canopen::SdoClient& client, const DriveConfig& config);
 
-/// The whole sequence from there until the drive is operational, in the order of docs/can.md. What the drive cannot map and can be
-/// read by SDO leaves `layout`. Throws InputError naming joint, node, object, value and what is allowed.
+/// Does all steps from identification until the drive is operational, in the order of docs/can.md. Objects that the drive cannot map but
+/// need not have, or that SDO can read, are removed from `layout`. Throws InputError with joint, node, object, value and what is allowed.
 Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, PdoLayout& layout,
                    const Description& description);
 
-/// Waits for fresh TPDOs of the mapped sizes, sending SYNC if that is our task. Throws InputError naming what
-/// is missing.
+/// Waits for TPDOs of the mapped sizes and sends SYNC if that is our task. Throws InputError with the missing
+/// TPDO.
 void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 
-/// From a SYNC of ours, the last of some at the loop's rate, until the position that was sampled with it has come. `port` hears our
-/// SYNC come back.
-/// Throws InputError when it is more than config.delay_periods allow.
+/// Returns the delay from our SYNC to the arrival of the position sampled with it. It uses the last SYNC of
+/// several at the loop's rate. `port` must receive our own SYNC. Throws InputError when the delay exceeds
+/// config.delay_periods.
 std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 
-/// Of a drive that is pre-operational, where it misses no RPDO: takes the torque off and ends its supervision of us, so that our
-/// going is no fault.
+/// The drive must be pre-operational, where it expects no RPDO. Removes the torque and ends the drive's
+/// supervision of our heartbeat, so that the end of the daemon is no fault.
 void release_drive(canopen::SdoClient& client, const DriveConfig& config);
 
 }  // namespace strainwave::cia402

@@ -12,7 +12,7 @@ struct StatusRow {
   std::uint16_t value;
   PowerState state;
   std::string_view text;
-  // Controlwords towards the goals.
+  // The controlwords for each goal.
   std::uint16_t disable;
   std::uint16_t enable;
   std::uint16_t quick_stop;
@@ -48,7 +48,7 @@ std::string_view to_text(PowerState state) noexcept {
 PowerState power_state_of(std::uint16_t statusword) noexcept {
   for (const StatusRow& row : kTable)
     if ((statusword & row.mask) == row.value) return row.state;
-  // Bit patterns that the standard does not give: nothing may be built on them.
+  // The standard does not define these bit patterns, so the state is unknown.
   return PowerState::kNotReady;
 }
 

@@ -16,14 +16,14 @@ namespace {
 constexpr std::uint32_t kMaxon = 0x000000FB;
 constexpr std::uint32_t kElmo = 0x0000009A;
 
-/// Between rms and peak amperes lie 1.41; gear losses and rounding add a little.
+/// Peak and rms amperes differ by 1.41; gear losses and rounding add a little.
 constexpr double kTolerance = 1.6;
 constexpr double kMillinewtonmetre_Nm = 1e-3;
 constexpr double kMicronewtonmetre_Nm = 1e-6;
 constexpr double kPerMille = 1000.0;
 constexpr double kMostCounts = 1e15;
-/// A gear bears several times a motor's rated torque, so the joint's limit is usually above it; three times the other way leaves room
-/// for a large motor.
+/// A gear tolerates several times the motor's rated torque, so the joint's limit is usually above the rated
+/// torque. A factor of three in the other direction leaves room for a large motor.
 constexpr double kMostRatedShare = 3.0;
 
 bool fits(double a, double b) {
@@ -44,7 +44,7 @@ struct VelocityUnit {
   double rad_s = 0.0;
 };
 
-// 60A9h: power of ten, what turns, by what time, reserved.
+// Bytes of 60A9h: power of ten, unit of angle, unit of time, reserved.
 std::optional<VelocityUnit> velocity_unit(std::uint32_t unit) {
   struct Code {
     std::uint32_t code;
@@ -62,12 +62,12 @@ std::optional<VelocityUnit> velocity_unit(std::uint32_t unit) {
   return std::nullopt;
 }
 
-/// As a configuration of three digits rounds it.
+/// Equal within the rounding of a configured number to three digits.
 bool is_near(double a, double b) {
   return std::abs(a - b) < 1e-2 * b;
 }
 
-/// The settings that agree with the current, for the message.
+/// Returns the settings that agree with the current, for the message.
 std::string fitting_settings(const RatedValues& rated, const UnitConfig& units, double expected_Nm) {
   std::string text;
   for (const double unit_Nm : {kMillinewtonmetre_Nm, kMicronewtonmetre_Nm})
@@ -159,7 +159,7 @@ double PositionScale::elsewhere_rad(std::int32_t counts) const noexcept {
 
 std::int32_t PositionScale::counts(double position_rad) const noexcept {
   const double wanted = (position_rad - offset_rad_) / rad_per_count_;
-  // Farther away than any joint turns.
+  // Beyond the range of any joint, and not finite numbers.
   if (!(std::abs(wanted) < kMostCounts)) return last_counts_;
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llround(wanted)));
 }
@@ -176,7 +176,7 @@ double PositionScale::position_rad(std::int32_t counts) noexcept {
     total_counts_ = counts;
     started_ = true;
   } else {
-    // Modulo 2^32: right whichever way the counter wrapped.
+    // The difference modulo 2^32 is right in both directions of a wrap.
     total_counts_ += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) -
                                                static_cast<std::uint32_t>(last_counts_));
   }

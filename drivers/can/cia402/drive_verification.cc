@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of cia402_setup.h that watches a drive which has been set up: whether it answers our SYNC, and how soon.
+// The part of cia402_setup.h that checks whether a configured drive answers our SYNC, and how soon.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,16 +13,16 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// A late position.
+/// The longest delay of a position that is measured.
 constexpr std::int64_t kLongestDelay_ns = 20'000'000;
-/// SYNCs at the loop's rate, as many as a delay of that length needs to build up at 1 kHz, and how often; the median counts.
+/// SYNCs in a measurement: as many as a delay of 20 ms needs to build up at 1 kHz. The median of kTrains measurements counts.
 constexpr int kTrain = 50;
 constexpr int kTrains = 3;
 constexpr int kOldBatches = 100;
-/// SYNCs until a drive must have sent both of its TPDOs.
+/// Number of SYNCs in which a drive must have sent each of its TPDOs.
 constexpr int kVerifySyncs = 2 * 240;
 
-// With the same times as in the loop: an adapter may tell of our SYNC late, which then is part of every delay.
+// Uses the timing of the loop: an adapter may report our SYNC late, which is then part of every delay.
 std::optional<std::int64_t> delay_after_train_ns(CanPort& port, std::int64_t period_ns,
                                                  std::uint32_t position_id) {
   std::array<ReceivedFrame, 16> frames;
@@ -40,7 +40,7 @@ std::optional<std::int64_t> delay_after_train_ns(CanPort& port, std::int64_t per
       if (result.count == 0) (void)port.wait(end_ns - port.now_ns());
     } while (port.now_ns() < end_ns);
   };
-  // What is still on its way belongs to SYNCs before.
+  // Frames that still arrive belong to earlier SYNCs.
   for (int batch = 0; batch < kOldBatches; ++batch) {
     position_ns = 0;
     listen_until(port.now_ns() + kLongestDelay_ns);

@@ -38,7 +38,7 @@ constexpr std::uint32_t kAllModes = 0x3FF;
 constexpr std::uint32_t kDisabledAndPowered = 0x0250;
 constexpr double kAssumedCurrent_A = 1.0;
 
-/// What the data sheet answers on the bus, without any time passing but that which somebody waits.
+/// A drive on the bus that answers from the data sheet. Time passes only while the caller waits.
 class DataSheetDrive final : public CanPort {
  public:
   DataSheetDrive(const canopen::EdsFile& eds, const DriveConfig& config) : eds_(eds), config_(config) {
@@ -66,11 +66,11 @@ class DataSheetDrive final : public CanPort {
   }
   std::int64_t now_ns() override { return now_ns_; }
 
-  /// What the data sheet could not tell, and what it says against start-up without deciding.
+  /// Returns what the data sheet leaves open, and its limits that contradict start-up without being decisive.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:
-  // A data sheet has no values of what the motor decides, and often none of what the drive says of itself.
+  // A data sheet has no values that depend on the motor, and often no identity of the drive.
   void assume_values() {
     const auto assume = [&](Entry entry, std::int64_t value, const char* what) {
       const auto found = values_.find(entry);
@@ -106,7 +106,7 @@ class DataSheetDrive final : public CanPort {
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
   }
 
-  /// An entry that start-up reads, writes or maps.
+  /// Returns an entry that start-up reads, writes or maps, and notes it when it is unclear.
   const EdsEntry* touch(Entry entry) {
     const EdsEntry* object = eds_.find(entry);
     if (object != nullptr && !object->unclear.empty())
@@ -133,7 +133,7 @@ class DataSheetDrive final : public CanPort {
                             : object->readable ? Abort::kNone
                                                : Abort::kWriteOnly;
       if (refused != Abort::kNone) return abort(frame, refused);
-      // Text is not compared with anything: an empty one stands for it. Four bytes hold any number whose type is unclear.
+      // Text is not compared, so one zero byte replaces it. Four bytes hold any number of unclear type.
       const bool is_number = object->bytes > 0 && object->bytes <= 4;
       const std::size_t bytes = !object->unclear.empty() ? 4 : is_number ? object->bytes : 1;
       const std::int64_t value = is_number || !object->unclear.empty() ? values_.at(entry) : 0;
@@ -179,7 +179,7 @@ class DataSheetDrive final : public CanPort {
     if (mapping && entry.index < 0x1C00)
       if (const Abort refused = map(entry, raw); refused != Abort::kNone) return refused;
     values_[entry] = value;
-    // A drive that obeys.
+    // The simulated drive adopts the mode at once.
     if (entry == Entry{0x6060, 0} && values_.contains({0x6061, 0})) values_[{0x6061, 0}] = value;
     return Abort::kNone;
   }

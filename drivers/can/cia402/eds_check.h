@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a drive could be started, from its electronic data sheet alone: start-up itself is run against a drive that has what
-// the data sheet has and refuses what it refuses, in virtual time. So nothing that start-up reads, writes or maps is listed a
-// second time here. Not real-time.
+// Checks from its electronic data sheet alone whether a drive could be started. It runs the real start-up in
+// virtual time against a simulated drive with the entries and access rights of the data sheet. So no second
+// list of the objects of start-up is needed. Not real-time.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace strainwave::cia402 {
 
-/// What start-up would say, and what could not be checked: values that the data sheet does not have, entries that are unclear in it,
-/// limits that exclude what start-up writes. Throws InputError naming the file, the object and why start-up would be refused.
+/// Returns the messages of start-up and the points that could not be checked: missing values, unclear entries, limits that
+/// exclude written values. Throws InputError with the file, the object and the reason why start-up would be refused.
 std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const DriveConfig& config);
 
 }  // namespace strainwave::cia402

@@ -14,7 +14,7 @@ namespace {
 constexpr int kDisables = 3;
 constexpr int kResets = 2;
 constexpr std::int64_t kBetween_ns = 10'000'000;
-/// What a drive says so long after the reset was sent it says in spite of it.
+/// A message so long after the reset shows that the drive did not obey it.
 constexpr std::int64_t kObeysWithin_ns = 100'000'000;
 
 }  // namespace

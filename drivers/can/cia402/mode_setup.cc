@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a CiA 402 drive's set-up that is about its mode of operation, and about a loop of its own.
+// The part of a CiA 402 drive's set-up that concerns its mode of operation and its own loop.
 #include <array>
 #include <sstream>
 
@@ -17,9 +17,9 @@ using canopen::SdoClient;
 
 constexpr Entry kMode{0x6060, 0};
 constexpr Entry kFollowingErrorWindow{0x6065, 0};
-/// Of 605Ah: slow down on the quick stop ramp, then no torque.
+/// Value of 605Ah: slow down on the quick stop ramp, then no torque.
 constexpr std::uint32_t kStopOnRamp = 2;
-/// Of 6065h: none.
+/// Value of 6065h: no supervision of the following error.
 constexpr std::uint32_t kNoWindow = UINT32_MAX;
 constexpr std::int64_t kModePoll_ns = 5'000'000;
 constexpr std::int64_t kModeWait_ns = 1'000'000'000;
@@ -27,10 +27,10 @@ constexpr std::int64_t kModeWait_ns = 1'000'000'000;
 struct Choice {
   DriveMode drive_mode;
   OperationMode mode;
-  unsigned bit;  ///< of 6502h
+  unsigned bit;  ///< bit in 6502h
   const char* name;
 };
-/// For each drive_mode in the order of preference.
+/// For each drive_mode in order of preference.
 constexpr std::array<Choice, 5> kChoices{
     {{DriveMode::kTorque, OperationMode::kCyclicTorque, 9, "CST"},
      {DriveMode::kTorque, OperationMode::kTorque, 3, "TQ"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a CiA 402 drive's set-up that is about process data: the PDOs that are used, their deadline, and the others off.
+// The part of a CiA 402 drive's set-up that concerns process data: the used PDOs, their deadline, and switching off the others.
 #include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/setup_steps.h"
 
@@ -14,12 +14,12 @@ using canopen::SdoClient;
 using canopen::SdoError;
 using canopen::SdoWrite;
 
-/// CANopen allows as many in each direction; the first four have identifiers of their own.
+/// CANopen allows 512 PDOs in each direction; only the first four have predefined identifiers.
 constexpr int kMostPdos = 512;
 constexpr int kUsualPdos = 4;
 constexpr Entry kCommandDeadline_ms{0x1400, 5};
 
-/// False when the drive has this identifier for good; then it must be ours. Such a drive lets its mapping be changed as it is.
+/// Returns false when the identifier is read-only; it must then be ours. Such a drive lets its mapping change while the PDO is valid.
 bool switch_off(SdoClient& client, const Pdo& pdo, const SdoWrite& off, std::uint32_t old_identifier) {
   try {
     client.write_verified(off);
@@ -44,7 +44,7 @@ bool is_mapping(Entry entry) {
   return entry.index >= 0x1600 && (entry.index < 0x1800 || entry.index >= 0x1A00);
 }
 
-/// A drive with a fixed mapping is taken when it is the one that is wanted.
+/// A drive with a fixed mapping is accepted when that mapping is the wanted one.
 void configure_pdo(SdoClient& client, const Pdo& pdo) {
   const std::uint32_t old_identifier = number(client, pdo.communication(1));
   std::vector<SdoWrite> writes = canopen::pdo_configuration(pdo, client.node(), old_identifier);
@@ -59,7 +59,7 @@ void configure_pdo(SdoClient& client, const Pdo& pdo) {
   for (const SdoWrite& write : writes) client.write_verified(write);
 }
 
-/// Without its last object, which is at `field`, where the drive cannot map it.
+/// Configures `pdo`; if the drive cannot map it, again without its last object, the optional one at `field`.
 void configure_with_optional(SdoClient& client, Pdo& pdo, PdoLayout::Field& field,
                              std::vector<std::string>& report, const char* without) {
   if (pdo.objects.empty()) return;
@@ -73,7 +73,7 @@ void configure_with_optional(SdoClient& client, Pdo& pdo, PdoLayout::Field& fiel
   report.push_back(client.who() + ": " + without);
 }
 
-// An identifier that the drive has for good is left to a PDO that holds nothing: CiA 301 takes that for switched off as well.
+// A PDO with a read-only identifier is emptied instead; CiA 301 treats an empty PDO as switched off.
 void switch_off_unused(SdoClient& client, PdoDirection direction, int pdo, std::uint32_t old_identifier) {
   const SdoWrite off = canopen::pdo_switched_off(direction, pdo, old_identifier);
   try {
@@ -85,8 +85,8 @@ void switch_off_unused(SdoClient& client, PdoDirection direction, int pdo, std::
   }
 }
 
-// Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it. Drives number theirs
-// without gaps, but for the first four.
+// Other TPDOs would load the bus, and other RPDOs could command the drive. Except for the first four, drives
+// number their PDOs without gaps.
 void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
   const auto is_used = [&](PdoDirection direction, int pdo) {
     for (const Pdo* used : {&layout.command, &layout.offsets, &layout.fast, &layout.slow, &layout.probe})
@@ -135,7 +135,7 @@ bool configure_deadline(SdoClient& client, const DriveConfig& config) {
   } catch (const SdoError& error) {
     if (error.no_answer()) throw;
   } catch (const InputError&) {
-    // An entry that keeps 0 is none.
+    // An entry that keeps 0 means that the drive has no deadline.
   }
   return false;
 }

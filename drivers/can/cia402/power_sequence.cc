@@ -7,7 +7,7 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// Periods that the reset bit stays low, then high. Several, because a frame may be lost; the edge is what counts.
+/// Periods in which the reset bit stays low, then high. Several, because a frame may be lost and the rising edge counts.
 constexpr int kResetHalf = 5;
 
 }  // namespace
@@ -17,7 +17,7 @@ void PowerSequence::see(std::uint16_t statusword, std::int64_t now_ns) noexcept 
   statusword_ = statusword;
   if (goal_ == Goal::kEnabled && state() == PowerState::kOperationEnabled) reached_ = true;
   if (resetting_ && (state() != PowerState::kFault || now_ns - reset_since_ns_ > times_.reset_ns)) {
-    // A new step begins only now; the time of the reset does not count for it.
+    // The time of the reset does not count for the next step.
     step_since_ns_ = now_ns;
     resetting_ = false;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive's power state over time: leads it towards a goal, gives every step a time, resets a fault by a
-// rising edge. Real-time safe; time is an argument. Source: CiA 402-2, section 6.
+// A drive's power state over time: leads it to a goal, supervises the time of every step, and resets a fault
+// by a rising edge. Real-time safe; time is an argument. Source: CiA 402-2, section 6.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@ namespace strainwave::cia402 {
 
 struct PowerTimes {
   std::int64_t step_ns = 500'000'000;          ///< for each step of enabling
-  std::int64_t quick_stop_ns = 1'000'000'000;  ///< then the voltage is ordered off
-  std::int64_t reset_ns = 1'000'000'000;       ///< for the drive to leave its fault
+  std::int64_t quick_stop_ns = 1'000'000'000;  ///< after this time the voltage is ordered off
+  std::int64_t reset_ns = 1'000'000'000;       ///< time for the drive to leave its fault
 };
 
 class PowerSequence {
  public:
   explicit PowerSequence(const PowerTimes& times) noexcept : times_(times) {}
 
-  /// A statusword that has just come.
+  /// Takes a new statusword.
   void see(std::uint16_t statusword, std::int64_t now_ns) noexcept;
-  /// Each period: the controlword that leads to `goal`.
+  /// Returns the controlword of this period on the way to `goal`.
   std::uint16_t controlword(Goal goal, std::int64_t now_ns) noexcept;
-  /// On an operator's order: resets the fault, if there is one.
+  /// Resets the drive's fault, if there is one. Called only on an operator's order.
   void begin_reset(std::int64_t now_ns) noexcept;
 
   PowerState state() const noexcept { return power_state_of(statusword_); }
@@ -35,13 +35,13 @@ class PowerSequence {
     return state() == PowerState::kOperationEnabled || state() == PowerState::kQuickStopActive;
   }
   bool resetting() const noexcept { return resetting_; }
-  /// Enabling has been waiting too long in one state.
+  /// Enabling has stayed too long in one state.
   bool stuck(std::int64_t now_ns) const noexcept;
-  /// Operation was enabled under the goal kEnabled, and the drive has left it by itself.
+  /// The drive reached operation enabled under the goal kEnabled and has left it by itself.
   bool left_operation() const noexcept {
     return goal_ == Goal::kEnabled && reached_ && state() != PowerState::kOperationEnabled;
   }
-  /// Forgets everything; the drive has been set up anew.
+  /// Resets all state after a new set-up of the drive.
   void restart() noexcept { *this = PowerSequence(times_); }
 
  private:

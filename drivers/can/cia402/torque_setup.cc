@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a CiA 402 drive's set-up that is about torque: its unit, its limits, what would change it on its way.
+// The part of a CiA 402 drive's set-up that concerns torque: its unit, its limits, and settings that would change it.
 #include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"
@@ -18,7 +18,7 @@ constexpr Entry kTorqueSlope{0x6087, 0};
 constexpr Entry kPositiveTorqueLimit{0x60E0, 0};
 constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
 
-/// In the drive as well, by whichever objects it has.
+/// Sets the limit in the drive as well, in the objects that it has.
 void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, DriveMode mode,
                   std::vector<std::string>& report) {
   bool limited = false;
@@ -77,7 +77,7 @@ void configure_torque_path(SdoClient& client, const DriveConfig& config, Operati
                " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
   clear_offset(client, kTorqueOffset, 2, "torque offset");
   if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
-  // All of the torque there and back within a period.
+  // The slope allows the change from full negative to full positive torque within a period.
   const auto slope = static_cast<std::uint32_t>(std::lround(2.0 * INT16_MAX / config.period_s));
   try {
     client.write_verified({kTorqueSlope, slope, 4, ~0U, "torque slope"});

@@ -49,7 +49,7 @@ double float_at(const CanFrame& frame, std::size_t offset) noexcept {
   return static_cast<double>(std::bit_cast<float>(word_at(frame, offset)));
 }
 
-/// Two REAL32 that fill the frame.
+/// Two REAL32 that fill a frame.
 struct Pair {
   double first = 0.0;
   double second = 0.0;
@@ -117,7 +117,7 @@ std::optional<Estimates> decode_estimates(const CanFrame& frame) noexcept {
   return Estimates{pair->first, pair->second};
 }
 
-// The first is what its loop wants.
+// The first number of the frame is the torque setpoint of the drive's loop.
 std::optional<double> decode_torque_Nm(const CanFrame& frame) noexcept {
   const std::optional<Pair> pair = decode_pair(frame);
   return pair ? std::optional(pair->second) : std::nullopt;

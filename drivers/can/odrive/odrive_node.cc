@@ -14,7 +14,7 @@ namespace strainwave::odrive {
 
 namespace {
 
-/// An order to change the state is repeated this often until the heartbeat shows that it was obeyed.
+/// Interval at which a state order is repeated until the heartbeat shows the new state.
 constexpr std::int64_t kRepeatStateAfter_ns = 50'000'000;
 
 ActuatorFault fault_of(std::uint32_t errors) noexcept {
@@ -94,7 +94,7 @@ std::vector<std::string> Node::verify(CanPort& port) {
 std::vector<std::string> Node::serve(CanPort& port) {
   if (!setup_.begin()) return {};
   try {
-    // Orders are the loop's alone: it would take ours, from another socket, for somebody else's.
+    // Only the loop may send orders. It would take ours, from another socket, for those of a foreign sender.
     std::vector<std::string> messages = check_axis(port, config_);
     messages.push_back(config_.name + ": set up again");
     setup_.end(true);
@@ -109,7 +109,7 @@ void Node::shut_down(CanPort& port) noexcept {
   try {
     release_axis(port, config_);
   } catch (const std::exception&) {
-    // A drive that cannot be reached is stopped by its watchdog.
+    // If the drive cannot be reached, its watchdog stops it.
   }
 }
 
@@ -143,7 +143,7 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
       velocity_rad_s_ = joint_rad(config_.units, estimates->velocity_turns_s);
       fresh_ = true;
       sampled_ns_ = kernel_clock_.loop_time_ns(kernel_time_ns).value_or(now_ns_);
-      // Nothing comes from the future, nor from before the last cycle.
+      // A position is neither from the future nor older than the last cycle, so another time is an error.
       if (position_age_ns() < 0 || position_age_ns() > 2 * period_ns_) sampled_ns_ = now_ns_;
       return;
     }
@@ -180,7 +180,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.joint_position_rad = position_rad_ + velocity_rad_s_ * seconds(position_age_ns());
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_position = reading.has_velocity = has_position();
-  // One that was out of sight may have restarted: it has no message that tells of it.
+  // The drive may have restarted while it was unreachable; it sends no message about that.
   reading.position_lost = !config_.absolute_encoder &&
                           (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kConnectionLost);
   reading.torque_measured = closes_loop(config_.drive_mode) && now_ns_ - torque_ns_ < 2 * period_ns_;
@@ -203,7 +203,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   return reading;
 }
 
-// Two clocks of nearly one period: now and then a cycle finds none and the next one two.
+// Drive and loop have separate clocks of nearly one period: sometimes a cycle gets no position and the next one gets two.
 bool Node::has_position() const noexcept {
   return fresh_ || (missed_ <= 1 && position_age_ns() < 2 * period_ns_);
 }
@@ -211,14 +211,14 @@ bool Node::has_position() const noexcept {
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.fault_after + 1);
   if (!command_.enable) return;
-  // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from there.
+  // No orders fed the idle drive's watchdog before this loop began. The operator's enable order also clears that error.
   if (heartbeat_.errors == kWatchdogExpired && !was_armed_ && !closed_loop()) clear_ordered_ = true;
   watch_.latch(watch_.connection_trouble(setup_, now_ns_));
   watch_.latch(use_trouble());
   was_armed_ = was_armed_ || closed_loop();
 }
 
-// What is a fault only of a drive that is in use.
+// Faults that concern only a drive in use.
 NodeFault Node::use_trouble() const noexcept {
   const auto state = static_cast<std::uint32_t>(heartbeat_.state);
   if (heartbeat_.errors != 0 && !clear_ordered_) return {fault_of(heartbeat_.errors), heartbeat_.errors};
@@ -249,35 +249,35 @@ bool Node::wants_power() const noexcept {
 void Node::transmit(CanTransmitter& bus) noexcept {
   if (!setup_.ready()) return;
   lead_state(bus);
-  // A drive that closes its own loop goes on with the plan where positions stay away; one that obeys torque must not.
+  // Without positions, a drive that closes its own loop continues with the trajectory; a torque-controlled drive must not.
   const bool driven = wants_power() && closed_loop() &&
                       (closes_loop(config_.drive_mode) || missed_ <= config_.zero_torque_after);
-  // Where the joint is: it does not jump when it is enabled.
+  // The order holds the present position, so that the joint does not jump when it is enabled.
   sent_ = driven ? command_ : ActuatorCommand{0.0, false, position_rad_, 0.0};
   sent_.torque_Nm = std::clamp(sent_.torque_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm);
-  // Sent in every period, enabled or not: it feeds the drive's watchdog, and its echo tells the kernel's time.
+  // Sent in every period, also when disabled: it feeds the drive's watchdog, and its echo gives the kernel's time.
   kernel_clock_.sent(now_ns_);
   (void)bus.send(order_frame(config_, sent_));
 }
 
-// Closed loop while power is wanted, idle otherwise; at most one order in a while, since the heartbeat
-// answers slowly.
+// Requests closed loop while power is wanted, else idle. Orders are limited in rate because the heartbeat
+// shows the state late.
 void Node::lead_state(CanTransmitter& bus) noexcept {
   if (clear_ordered_ && bus.send(clear_errors_frame(config_.node_id))) {
     clear_ordered_ = false;
-    heartbeat_.errors = 0;  // the next heartbeat tells those that stay
+    heartbeat_.errors = 0;  // the next heartbeat reports the errors that remain
   }
   if (stop_ordered_ && has_heartbeat_ && heartbeat_ns_ == now_ns_ && !closed_loop()) stop_ordered_ = false;
   const bool wanted = wants_power();
   if (has_heartbeat_ && closed_loop() == wanted) return;
-  if (wanted && was_armed_) return;  // it left by itself, which is a fault
-  // Taking the power off does not wait.
+  if (wanted && was_armed_) return;  // the axis left closed loop by itself, which is a fault
+  // Removing the power does not wait.
   const bool urgent = !wanted && sent_.enable;
   if (!urgent && now_ns_ - state_sent_ns_ < kRepeatStateAfter_ns) return;
   if (wanted) (void)bus.send(mode_frame(config_.node_id, control_mode(config_.drive_mode)));
   const bool sent =
       bus.send(axis_state_frame(config_.node_id, wanted ? AxisState::kClosedLoop : AxisState::kIdle));
-  // What the bus did not take is sent again in the next period.
+  // If the bus did not take the order, it is sent again in the next period.
   state_sent_ns_ = sent ? now_ns_ : now_ns_ - kRepeatStateAfter_ns;
 }
 
@@ -287,7 +287,7 @@ void Node::clear_fault() noexcept {
   clear_ordered_ = true;
   was_armed_ = false;
   if (!was_away) return;
-  // Whatever answers now may be another drive, or the same one with other settings.
+  // The node that answers now may be another drive, or have other settings.
   setup_.request();
 }
 

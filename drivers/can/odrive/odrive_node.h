@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ODrive axis in the loop, by CANSimple: its frames in, its state, its order out, and every way in which
-// it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in cia402_node.h.
+// One ODrive axis in the loop, by CANSimple: frames, axis state, orders, and supervision. The rules for calls
+// and real time are those of can_node.h; faults are latched as in cia402_node.h.
 //
-// CANSimple has no SYNC: the drive sends its position by its own clock, and where in the loop's period that falls changes.
-// Each position comes with the velocity of the same instant; with it the position is carried to the beginning of the cycle.
+// CANSimple has no SYNC. The drive sends its position by its own clock, at a varying place in the loop's period. Each
+// position comes with the velocity of the same instant, which serves to extrapolate it to the start of the cycle.
 //
-// CANSimple has no supervision of the host but the drive's watchdog, which each order
-// feeds. It has no boot-up message either: a drive that restarted shows itself by heartbeats that stay away
-// and by having left closed loop. Its controller mode is set anew whenever it is enabled.
+// In CANSimple only the drive's watchdog supervises the host; each order feeds it. There is no boot-up
+// message: a restarted drive shows itself by missing heartbeats and by having left closed loop. The
+// controller mode is set each time the axis is enabled.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@
 
 namespace strainwave::odrive {
 
-/// ActuatorReading::drive_error of these drives: an axis error as the drive sends it, or with the highest bit
+/// ActuatorReading::drive_error of these drives: an axis error from the drive, or, with the highest bit set,
 /// a detail of can_detail.h.
 inline constexpr std::uint32_t kOurDetail = 1U << 31U;
 std::string drive_error_text(std::uint32_t drive_error);
@@ -66,10 +66,10 @@ class Node final : public CanNode {
   std::int64_t period_ns_;
   SetUpState setup_;
 
-  // The loop alone.
+  // Only the loop uses these.
   std::int64_t now_ns_ = 0;
   KernelClock kernel_clock_;
-  std::int64_t sampled_ns_ = 0;  ///< the position, by the loop's time
+  std::int64_t sampled_ns_ = 0;  ///< of the position, in the loop's time
   std::int64_t heartbeat_ns_ = 0;
   std::int64_t temperature_ns_ = 0;
   std::int64_t enabling_since_ns_ = 0;
@@ -83,11 +83,11 @@ class Node final : public CanNode {
   int missed_ = 0;
   NodeWatch watch_;
   ActuatorCommand command_;
-  ActuatorCommand sent_;  ///< not enabled: where the joint is, without torque
+  ActuatorCommand sent_;  ///< last order; while not enabled: the present position, no torque
   bool fresh_ = false;
   bool has_heartbeat_ = false;
   bool has_temperature_ = false;
-  bool was_armed_ = false;  ///< closed loop was reached since it was asked for
+  bool was_armed_ = false;  ///< closed loop was reached since enabling
   bool stop_ordered_ = false;
   bool clear_ordered_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an ODrive axis is ordered in a period, by the mode that it is driven in. Real-time safe.
+// The order for an ODrive axis in a period, by its drive mode. Real-time safe.
 #pragma once
 
 #include "drivers/actuator.h"
@@ -9,11 +9,11 @@ namespace strainwave::odrive {
 
 ControlMode control_mode(DriveMode mode) noexcept;
 
-/// The message whose frames order the axis in this mode, and feed its watchdog.
+/// Returns the message that carries orders in this mode and feeds the watchdog.
 Command order_command(DriveMode mode) noexcept;
 
-/// The frame for `order`, whose numbers must be finite, on the joint's side. An ODrive takes a position as it comes, for the whole
-/// period; it gets that of the period's middle,
+/// Returns the frame for `order`, whose numbers are on the joint's side and must be finite. An ODrive uses a
+/// position unchanged for the whole period, so it gets the position in the middle of the period:
 ///   p = p_end - 0.5 * period_s * v
 CanFrame order_frame(const DriveConfig& config, const ActuatorCommand& order) noexcept;
 

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::int64_t kAnswerTimeout_ns = 500'000'000;
 constexpr std::int64_t kListenFor_ns = 500'000'000;
-/// Share of the expected messages that must have come: two clocks never agree exactly.
+/// Share of the expected messages that must arrive; the clocks of drive and host differ.
 constexpr double kEnough = 0.9;
 
 std::string where(const DriveConfig& config) {
   return config.name + ": ODrive node " + std::to_string(config.node_id);
 }
 
-/// Gives every data frame to `take` until it returns true or the time is over.
+/// Passes every data frame to `take` until it returns true or the time is over.
 bool listen(CanPort& port, const DriveConfig& config, std::int64_t duration_ns,
             const std::function<bool(const CanFrame&)>& take) {
   std::array<ReceivedFrame, 16> frames;
@@ -42,7 +42,7 @@ void send(CanPort& port, const DriveConfig& config, const CanFrame& frame) {
     throw InputError(where(config) + ": the CAN interface takes no frame");
 }
 
-/// Sends `request` and waits for the first frame that `decode` can read among those with `answer`'s identifier.
+/// Sends `request` and returns the first frame with `answer`'s identifier that `decode` accepts.
 template <typename Value>
 std::optional<Value> ask(CanPort& port, const DriveConfig& config, const CanFrame& request, Command answer,
                          const std::function<std::optional<Value>(const CanFrame&)>& decode) {

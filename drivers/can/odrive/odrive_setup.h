@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bringing an ODrive axis to where the loop can use it: version, watchdog, rates of its messages; it stays
+// Prepares an ODrive axis for the loop: checks version, watchdog and rates of its messages; the axis stays
 // idle. Blocking; not real-time. Source: ODrive documentation, "CAN Protocol", firmware 0.6.10.
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace strainwave::odrive {
 
-/// Checks that an ODrive with firmware 0.6 answers, and that its watchdog is on and short enough; asks only.
-/// Returns lines for the log. Throws InputError naming joint, node, what was found and what is allowed.
+/// Checks that an ODrive with firmware 0.6 answers and that its watchdog is on and short enough. It only
+/// reads. Returns lines for the log. Throws InputError with joint, node, value and what is allowed.
 std::vector<std::string> check_axis(CanPort& port, const DriveConfig& config);
 
-/// Listens for a while: throws InputError when a message that the loop needs is missing or too rare, naming
-/// the ODrive setting that mends it.
+/// Listens for 0.5 s. Throws InputError when a message that the loop needs is missing or too rare, with the
+/// ODrive setting that fixes it.
 void verify_axis(CanPort& port, const DriveConfig& config);
 
-/// No torque, idle.
+/// Orders zero torque (in torque mode), then idle.
 void release_axis(CanPort& port, const DriveConfig& config);
 
 }  // namespace strainwave::odrive
