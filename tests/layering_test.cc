@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrows between the folders hold: see the table in docs/architecture.md, which is read here.
+// Checks the includes between folders against the table in docs/architecture.md.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ const IncludeRules& rules() {
 
 constexpr std::string_view kLicenceMark = "SPDX-License-Identifier: ";
 
-/// Sources whose first line does not name their licence.
+/// Sources without their licence in the first line.
 std::vector<std::string> find_without_licence(const std::filesystem::path& root) {
   std::vector<std::string> found;
   for (const std::filesystem::path& path : sources_under(root)) {
@@ -92,7 +92,7 @@ TEST(Layering, KeepsFilesShortOrSaysWhyNot) {
       << "above 300 lines: split it, or say in its first lines why it is (\"Above 300 lines: ...\")";
 }
 
-/// Drivers, supervisor and readers that are larger still. Nothing is added to this list.
+/// Drivers, supervisor and readers that are still larger. Do not add to this list.
 const std::set<std::string, std::less<>> kLarge{
     "Admission",  "CanBus",     "Cia402Node",        "Node",
     "OdriveNode", "Supervisor", "SimulatedActuator", "TomlSection"};
@@ -249,7 +249,7 @@ TEST(Layering, KeepsControlFreeOfThreadsSocketsAndClocks) {
   EXPECT_FALSE(allowed("control/friction/friction.cc", "#include <nlohmann/json.hpp>"));
 }
 
-/// A small tree of sources that is gone at the end.
+/// A small temporary tree of sources.
 class SourceTree : public ::testing::Test {
  protected:
   void write(const std::string& file, const std::string& text) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint that cannot move, and whoever goes on ordering it to: it must not push for ever. Virtual time.
+// A joint that cannot move and a client that keeps ordering it to move. The joint must not push for ever. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,20 +11,20 @@
 namespace strainwave::testing {
 namespace {
 
-/// Friction of some 200 N.m: nothing that the motor can do moves it.
+/// Friction of about 200 N.m, more than the motor can overcome.
 BenchJoint jammed_joint() {
   return demo_joint_with_friction(50.0);
 }
 
 struct Stream {
   double begin_rad = 0.0;
-  double speed_rad_s = 0.0;  ///< 0: every setpoint is the end
+  double speed_rad_s = 0.0;  ///< 0: every setpoint is end_rad
   double end_rad = 1.0;
 };
 
 class BlockedJoint : public ::testing::Test {
  protected:
-  /// A setpoint each 10 ms for `duration_s`, or until the joint faults; seconds that it took.
+  /// Sends a setpoint every 10 ms for `duration_s`, or until the joint faults. Returns the seconds that it took.
   double stream(JointBench& bench, const Stream& stream, double duration_s) {
     for (int sent = 0; sent < static_cast<int>(duration_s * 100.0); ++sent) {
       const double way_rad = stream.speed_rad_s * 0.01 * sent;
@@ -36,7 +36,7 @@ class BlockedJoint : public ::testing::Test {
     }
     return duration_s;
   }
-  /// So that nobody can take the sensor for stuck, which would be a fault of another kind.
+  /// Adds sensor noise, so that the daemon does not report a stuck sensor, which is another fault.
   static void let_counts_flicker(JointBench& bench) {
     ASSERT_EQ(bench.inject(0, {InjectedFault::kSensorNoisy, 0.0, 0.0, 2e-5}), Reason::kAccepted);
   }
@@ -62,7 +62,7 @@ TEST_F(BlockedJoint, FaultsWithinASecondHoweverItIsStreamedTo) {
 TEST_F(BlockedJoint, FaultsByItsTorqueWhereNoFollowingErrorIsLargeEnough) {
   BenchJoint joint = jammed_joint();
   joint.loop.limits.following_error_rad = 10.0;
-  joint.loop.limits.load.load_Nm = 1e3;  // nor its load too large, which would end it sooner
+  joint.loop.limits.load.load_Nm = 1e3;  // the load check would end the motion sooner
   JointBench bench({joint});
   bench.bring_to_hold(0);
   let_counts_flicker(bench);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint that carries a load of 15 N.m behind a brake: real loop, controller and GPIO driver, against a plant of this file's
-// own. Enabling must not let it fall, nothing may move it while the brake is on its way, and a fault must not hold it open.
+// A joint that carries a load of 15 N.m behind a brake: real loop, controller and GPIO driver, against the plant of this file. The load must not fall
+// when the joint is enabled. The joint must not move while the brake opens or shuts, and a fault must not keep the brake open.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@ constexpr double kBrakeOpens_s = 0.05;
 constexpr double kBrakeShuts_s = 0.03;
 constexpr double kFullScale_Nm = 48.0;
 constexpr double kCount_rad = 2.0 * std::numbers::pi / 320000.0;
-/// What the feedback gives way by before it carries the load, which nobody has told it of: 2.5 mrad measured.
+/// Sag when the load is unknown, until the feedback carries it: 2.5 mrad measured.
 constexpr double kSag_rad = 0.012;
-/// A period after it is ordered: 6.2 mrad measured, with a load of the wrong sign in mind.
+/// Sag when the torque acts one period late and the assumed load has the wrong sign: 6.2 mrad measured.
 constexpr double kDelayedSag_rad = 0.03;
-/// With the load known: 41 urad measured, two counts.
+/// Sag when the load is known: 41 urad measured, two counts.
 constexpr double kKnownSag_rad = 0.0002;
-/// A place that is held or reached: 9 urad measured.
+/// Position error when the joint holds or has arrived: 9 urad measured.
 constexpr double kHeld_rad = 1.2e-3;
 constexpr int kSubsteps = 20;
 constexpr double kPeriod_s = 0.001;
@@ -53,7 +53,7 @@ class Lines final : public DigitalLines {
   std::uint32_t outputs = 0;
 };
 
-/// Inertia, dry friction, a load that never rests, and a brake that takes its time both ways.
+/// Inertia, dry friction, a constant load, and a brake that needs time to open and to shut.
 class Plant {
  public:
   void step(double motor_Nm, bool brake_current) {
@@ -73,7 +73,7 @@ class Plant {
     const double driving_Nm = motor_Nm + kLoad_Nm;
     const double stops_rad_s = holds_Nm / kInertia_kgm2 * dt_s;
     double next_rad_s = velocity_rad_s + driving_Nm / kInertia_kgm2 * dt_s;
-    // Dry friction takes what it can of the velocity, and no more.
+    // Dry friction reduces the velocity to zero at most.
     next_rad_s -= std::clamp(next_rad_s, -stops_rad_s, stops_rad_s);
     velocity_rad_s = next_rad_s;
     fastest_rad_s = std::max(fastest_rad_s, std::abs(velocity_rad_s));
@@ -83,7 +83,7 @@ class Plant {
   double changing_s_ = 0.0;
 };
 
-/// The period that is over goes by when its end is read.
+/// Reading the counts at the end of a period advances the plant by that period.
 class Counts final : public CountSource {
  public:
   Counts(const Plant& plant, std::function<void()> advance) : plant_(plant), advance_(std::move(advance)) {}
@@ -132,8 +132,7 @@ class FallingLoad : public ::testing::Test {
     plant_.step(delay_periods_ == 0 ? ordered_Nm : ordered_before_Nm_, lines_->out(LineRole::kBrakeRelease));
     ordered_before_Nm_ = ordered_Nm;
   }
-  /// How far the load sags when it is taken over with a plant that obeys `delay_periods` (0 or 1) late, and a control law that
-  /// reckons with `reckoned`.
+  /// Returns how far the load sags at enabling. The torque acts `delay_periods` (0 or 1) late, and the control law assumes `reckoned` periods.
   double sag_rad(int delay_periods, int reckoned, double initial_load_Nm) {
     delay_periods_ = delay_periods;
     reckoned_periods_ = reckoned;
@@ -156,8 +155,8 @@ class FallingLoad : public ::testing::Test {
   Mode mode() const { return bench_->mode(0); }
 
   TemporaryFolder folder_;
-  int delay_periods_ = 0;     ///< of the plant
-  int reckoned_periods_ = 0;  ///< that the control law reckons with
+  int delay_periods_ = 0;     ///< delay of the plant
+  int reckoned_periods_ = 0;  ///< delay that the control law assumes
   double ordered_before_Nm_ = 0.0;
   Plant plant_;
   Lines* lines_ = nullptr;
@@ -183,7 +182,7 @@ TEST_F(FallingLoad, DoesNotSagWhenItsLoadIsKnown) {
   EXPECT_LT(plant_.farthest_rad, kKnownSag_rad);
 }
 
-// A period of delay is no reason for a sag; one that the control law does not know of is, since its estimate of the load swings.
+// A delay that the control law knows causes no sag. An unknown delay makes the estimate of the load swing.
 TEST_F(FallingLoad, ADelayCostsASagOnlyWhereTheControlLawDoesNotReckonWithIt) {
   for (const double load_Nm : {0.0, kLoad_Nm}) {
     const double reckoned_rad = sag_rad(1, 1, load_Nm);
@@ -267,7 +266,7 @@ TEST_F(FallingLoad, AFaultShutsTheBrakeInThePeriodInWhichItComes) {
   EXPECT_FALSE(lines_->out(LineRole::kEnable));
   run(1.0);
   EXPECT_EQ(plant_.velocity_rad_s, 0.0);
-  // While the brake itself shuts, 30 ms at (15 - 3) / 0.089 rad/s^2, and then what stops it.
+  // The load falls for 30 ms while the brake shuts, at (15 - 3) / 0.089 rad/s^2, and then the brake stops it.
   EXPECT_NEAR(plant_.position_rad, before_rad, 0.09);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flooder: ten thousand crafted datagrams a second, among them the fragments that crash LCM's library. Every stop is
-// obeyed and acknowledged, and the gateway lives. Where time is virtual, within 50 ms each.
+// The flooder sends ten thousand crafted datagrams a second, including the fragments that crash LCM's library. The daemon must obey and acknowledge
+// every stop, and the gateway must survive. In virtual time each stop must take less than 50 ms.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,8 +31,8 @@ constexpr int kPer_ms = 10;
 constexpr int kStops = 15;
 constexpr double kBound_ms = 50.0;
 
-/// Floods the group from several ports until it is killed. The crashing fragments go to a channel of orders: LCM's library
-/// only looks at fragments of channels that somebody listens to, and whoever listens with it would die.
+/// Floods the group from several ports until it is killed. The crashing fragments go to a channel of orders, because LCM's library only reads
+/// fragments of subscribed channels. A subscriber with that library would crash.
 [[noreturn]] void flood(std::uint64_t seed) {
   std::array<PortSender, 8> ports;
   HostileDatagrams datagrams(seed);
@@ -47,12 +47,12 @@ constexpr double kBound_ms = 50.0;
   }
 }
 
-/// Floods with sound orders that cost the core most: a table to certify, ten thousand times a second from as many ports as the gateway
-/// keeps orders, so that no order of another finds a place.
+/// Floods with valid orders that cost the core most: ten thousand tables a second to certify. They come from as many ports as the gateway can keep
+/// orders of, so that no other order finds a place.
 [[noreturn]] void flood_with_tables(gain_table_v1 table) {
   TestClient listener;
   std::vector<PortSender> ports(256);
-  table.sequence += 1'000'000'000;  // or what is answered to these would pass for the answer to a stop
+  table.sequence += 1'000'000'000;  // keeps the answers to these tables apart from the answer to a stop
   auto due = Clock::now();
   for (;;) {
     listener.pump(milliseconds(0));
@@ -95,7 +95,7 @@ class FlooderTest : public DaemonTest {
     ASSERT_TRUE(client_.load("elbow", shipped_table()).accepted);
     gateway_ = daemon_->gateway_pid();
   }
-  /// Orders are sent again when they get lost: it is the stops that must not.
+  /// Repeats the order until the joint holds: orders may get lost, stops may not.
   bool hold_position() {
     for (int i = 0; i < 50; ++i) {
       client_.lcm().publish("SW.elbow.COMMAND", &enable());
@@ -104,8 +104,8 @@ class FlooderTest : public DaemonTest {
     return false;
   }
   struct Stop {
-    double obeyed_ms = 0.0;  ///< until the first state that tells of it, by the daemon's clock
-    double known_ms = 0.0;   ///< until it was acknowledged and seen here, where the flood comes, too
+    double obeyed_ms = 0.0;  ///< time until the first state that shows the stop, by the daemon's clock
+    double known_ms = 0.0;   ///< time until this flooded client has seen the acknowledgement
   };
   Stop stop() {
     const command_v1 stop = client_.make_command("elbow", Action::kDisable);
@@ -113,7 +113,7 @@ class FlooderTest : public DaemonTest {
     const auto sent = Clock::now();
     const auto sent_us = std::chrono::duration_cast<std::chrono::microseconds>(
         std::chrono::system_clock::now().time_since_epoch());
-    // Sent again until it is answered, as clients do: the flood comes to this receiver, too, and may wash an acknowledgement away.
+    // Repeats the stop until it is answered, as clients do. The flood reaches this receiver too, and an acknowledgement may get lost.
     Answer answer;
     for (int i = 0; i < 25 && !answer.accepted; ++i) {
       client_.lcm().publish("SW.elbow.COMMAND", &stop);
@@ -161,7 +161,7 @@ TEST_F(FlooderTest, EveryStopIsObeyedAndAcknowledgedAndTheGatewayLives) {
   EXPECT_NE(daemon_->log().find("malformed datagrams"), std::string::npos) << "the flood did not come in";
 }
 
-// What a lane of their own is for: among the orders there is no room, and each costs the core milliseconds.
+// Stops have a lane of their own. The queue of orders is full, and each order costs the core milliseconds.
 TEST_F(FlooderTest, StopsGoBeforeOrdersForWhichThereIsNoRoom) {
   Stop longest;
   for (int i = 0; i < 2; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody else on the bus orders our drive out of its network state while it has torque: one frame, 000#8003, after which it
-// takes no process data and keeps what it was last ordered. What counts is the torque of the drive, not what we say of it.
+// Another master on the bus takes our drive out of the operational state while it has torque, with one frame: 000#8003. The drive then ignores
+// process data and keeps its last order. The test judges the torque of the drive, not the reported state.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ class ForeignNmtMaster : public ::testing::Test {
     frame.bytes = {command, node};
     bench_->can().send_as_stranger(frame);
   }
-  /// As the joint loop does it: once there is a fault it stops, and orders nothing any more.
+  /// Acts as the joint loop does: after a fault it stops the drive and orders nothing more.
   void run_as_the_loop(int periods) {
     for (int i = 0; i < periods; ++i) {
       const bool fault = bench_->reading().fault != ActuatorFault::kNone;
@@ -40,7 +40,7 @@ class ForeignNmtMaster : public ::testing::Test {
       bench_->step(fault ? ActuatorCommand{} : kMoving);
     }
   }
-  /// Periods until the first drive has no torque; it must keep it off from there on for two seconds.
+  /// Returns the periods until the first drive has no torque. The torque must then stay off for two seconds.
   int periods_until_torque_ends(int limit) {
     for (int i = 1; i <= limit; ++i) {
       run_as_the_loop(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody without a key who sends orders as fast as he can.
+// An attacker without a key who sends forged orders at a high rate.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,11 +15,11 @@
 namespace strainwave::testing {
 namespace {
 
-/// Whoever listens on the network can do this: messages of the joint's own user, each with the newest challenge and another wrong
-/// signature, five thousand times a second from eight ports.
+/// Sends messages in the name of the joint's own user, each with the newest challenge and another wrong signature. It sends five thousand a second
+/// from eight ports. Any listener on the network can do this.
 class Forger {
  public:
-  /// Forges `message`, which `key` would sign, on <channel>.
+  /// Forges `message` on <channel>, as if `key` had signed it.
   template <typename Message>
   Forger(const std::string& kind, Message message, const SecretKey& key) : pid_(::fork()) {
     if (pid_ != 0) return;
@@ -62,10 +62,10 @@ class ForgerTest : public SignedDaemonTest {
     client_.emplace();
     bring_to_hold(*client_);
   }
-  /// Whatever is forged meanwhile, each stop is obeyed and acknowledged, with a signature and without, each by a program of its
-  /// own: nobody who was heard before has it easier.
+  /// Despite the forgeries, the daemon must obey and acknowledge each stop, with and without a signature. Each stop comes from a new sender, so that
+  /// no stop profits from earlier traffic.
   void expect_stops(bool with_signature) {
-    constexpr int kStops = 25;  // one of several is answered by luck
+    constexpr int kStops = 25;  // enough that luck cannot answer them all
     for (int i = 0; i < kStops; ++i) {
       const command_v1 stop = client_->make_command("elbow", Action::kDisable);
       std::vector<std::uint8_t> bytes = encode(stop);

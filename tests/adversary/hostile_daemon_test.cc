@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A daemon that says anything: states, limits, timing and answers of the right length whose numbers are NaN, infinite, huge, negative or
-// unknown and whose text has control characters, and others of a wrong length. Our programs and libraries end with an error of theirs or
-// go on; none crashes, hangs or writes what a terminal would obey.
+// A daemon that publishes arbitrary states, limits, timing and answers. Their numbers are NaN, infinite, huge, negative or unknown, their text has
+// control characters, and some have a wrong length. Our programs and libraries must report their own error or continue. They must not crash, hang or
+// print control sequences to a terminal.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,10 +58,10 @@ class HostileDaemon {
     state.challenge = cycle_;
     state.cycle = chance_() % 20 == 0 ? static_cast<std::int64_t>(hostile()) : 2 * cycle_;
     state.mode =
-        static_cast<std::int32_t>(cycle_ / 100 % 8);  // of each kind for a while, so that programs get on
+        static_cast<std::int32_t>(cycle_ / 100 % 8);  // each mode for a while, so that programs make progress
     return state;
   }
-  /// The period divides every time.
+  /// The period is often hostile, because programs divide by it.
   limits_v1 limits() {
     limits_v1 limits{};
     limits.period_s = chance_() % 4 == 0 ? std::bit_cast<double>(hostile()) : 1e-3;
@@ -88,7 +88,7 @@ class HostileDaemon {
     lcm_.publish("SW.elbow.ACK", bytes.data(), static_cast<unsigned int>(bytes.size()));
     say("ACK", ack);
   }
-  /// One of ten has a hostile number somewhere, one of twenty nothing else; now and then of another length.
+  /// One of ten messages has one hostile number, one of twenty only hostile numbers, and one of fifty a wrong length.
   template <typename Message>
   void say(const std::string& kind, const Message& message) {
     constexpr std::size_t kFingerprint = 8;
@@ -107,14 +107,14 @@ class HostileDaemon {
 
   static constexpr std::array<std::uint64_t, 10> kHostile{0x7ff8000000000000,   // NaN
                                                           0x7ff0000000000000,   // infinite
-                                                          0xfff0000000000000,   // likewise, negative
+                                                          0xfff0000000000000,   // minus infinity
                                                           0x7fe1ccf385ebc8a0,   // 1e308
                                                           0xffe1ccf385ebc8a0,   // -1e308
-                                                          0x7fffffffffffffff,   // the largest number
-                                                          0x8000000000000000,   // the least
+                                                          0x7fffffffffffffff,   // largest integer
+                                                          0x8000000000000000,   // smallest integer
                                                           0xffffffffffffffff,   // -1
-                                                          0x1b5b324a1b5b324a,   // what clears a terminal
-                                                          0x0000000000000001};  // next to nothing
+                                                          0x1b5b324a1b5b324a,   // clears a terminal
+                                                          0x0000000000000001};  // smallest positive
 
   lcm::LCM lcm_;
   std::mt19937_64 chance_{38};
@@ -129,7 +129,7 @@ struct Ended {
 
 class Hostile : public DaemonTest {
  protected:
-  /// The program's end; it is given `patience` to come to one.
+  /// Runs the program. Kills it when it has not ended after `patience`.
   Ended run(std::vector<std::string> words, seconds patience) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -208,7 +208,7 @@ TEST_F(Hostile, DaemonMakesTheLibraryThrowNothingButItsErrors) {
     for (const auto& call : calls) try {
         call();
       } catch (const ClientError&) {
-        // in order
+        // an expected error
       }
 }
 

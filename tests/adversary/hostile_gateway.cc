@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A gateway that was taken over: started by the core in place of the real one, it goes through the real one's confinement
-// and then makes the attempt that $STRAINWAVE_ATTEMPT names. It tells what came of it through its shared memory: turns = 1
-// before the attempt, 2 when it succeeded; a refused attempt ends with status 3. With $STRAINWAVE_UNCONFINED it leaves the
-// last step out, so that a test can show that the attempt is one.
+// A compromised gateway. The core starts it in place of the real one. It applies the real confinement and then makes the attempt that
+// $STRAINWAVE_ATTEMPT names. It reports through its shared memory: turns = 1 before the attempt, 2 after a success. A refused attempt ends with
+// status 3. With $STRAINWAVE_UNCONFINED it omits the last step of the confinement, so that a test can show that the attempt is real.
 #include <fcntl.h>
 #include <linux/can.h>
 #include <netinet/in.h>
@@ -34,7 +33,7 @@ using namespace strainwave;
 
 struct Prey {
   pid_t core;
-  int socket;      ///< one that was open before the confinement
+  int socket;      ///< a socket opened before the confinement
   void* outbound;  ///< the memory that the core writes
 };
 

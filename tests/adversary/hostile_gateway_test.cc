@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a gateway that was taken over can do to the core, as the same user and behind the real filter: nothing of what it tries.
-// The core is this process, with the core's own code for memory, wake and child.
+// A compromised gateway runs as the same user behind the real filter. None of its attempts may harm the core. The core is this process, with the
+// core's own code for memory, wake and child.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -67,7 +67,7 @@ std::string name_of(const ::testing::TestParamInfo<const char*>& info) {
 
 class HostileGatewayAttempt : public HostileGateway {};
 
-// Without the filter each of these succeeds: they are attempts, and it is the filter that ends them.
+// Without the filter each attempt succeeds, which shows that the filter stops it.
 TEST_P(HostileGatewayAttempt, IsEndedByTheFilterAndSucceedsWithoutIt) {
   const Attempted without = attempt(GetParam(), false);
   EXPECT_EQ(without.outcome, Outcome::kSucceeded) << "this is no attempt: " << without.end;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Every, HostileGatewayAttempt,
 
 class HostileGatewayIntrusion : public HostileGateway {};
 
-// Some systems refuse these for other reasons, too: a missing module, or a core with capabilities that the gateway gave up.
+// Some systems refuse these attempts for other reasons too: a missing module, or a core with capabilities that the gateway gave up.
 TEST_P(HostileGatewayIntrusion, IsEndedByTheFilter) {
   const Attempted with = attempt(GetParam(), true);
   EXPECT_EQ(with.outcome, Outcome::kEnded) << with.end;
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Every, HostileGatewayIntrusion,
 
 class HostileGatewayMapping : public HostileGateway {};
 
-// The calls are allowed; the core's memory is sealed against them whatever the filter says.
+// The filter allows these calls. The seal on the core's memory refuses them with or without the filter.
 TEST_P(HostileGatewayMapping, IsRefusedWithTheFilterAndWithout) {
   for (const bool confined : {true, false}) {
     const Attempted tried = attempt(GetParam(), confined);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A gateway that hangs while a joint moves: what was sent to it is lost, and the daemon replaces it. Our programs repeat a stop for longer
-// than that takes.
+// A gateway that hangs while a joint moves. Messages sent to it are lost, and the daemon replaces it. Our programs repeat a stop for longer than the
+// replacement takes.
 #include <csignal>
 #include <strainwave/command_v1.hpp>
 #include <string>
@@ -27,7 +27,7 @@ class HungGateway : public DaemonTest {
     ASSERT_TRUE(client_->send_and_wait("elbow", "SETPOINT", slow).accepted);
   }
   static constexpr double kFar_rad = 3.0;
-  static constexpr double kSpeed_rad_s = 0.1;  // it takes 30 s
+  static constexpr double kSpeed_rad_s = 0.1;  // the motion takes 30 s
 
   std::optional<DaemonProcess> daemon_;
   std::optional<TestClient> client_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders of our own programs that come to the daemon late: kept back on their way, or by a program that stood still. Meanwhile somebody
-// else stops the joint, and it stays as he left it.
+// Orders of our own programs that reach the daemon late, because the network delayed them or the program was suspended. Meanwhile another client
+// stops the joint, and the joint must stay stopped.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,7 +65,7 @@ class LateOrder : public SignedDaemonTest {
     ASSERT_TRUE(send(*other_, "COMMAND", other_->make_command("elbow", Action::kRelease)).accepted);
     before_rad_ = other_->state("elbow")->joint_position_rad;
   }
-  /// Somebody else, with a key of his own, on whose path nobody is.
+  /// Sends an order of another client, with its own key and a direct path to the daemon.
   void other_orders(Action action) {
     const Answer answer = send(*other_, "COMMAND", other_->make_command("elbow", action), operator_key_);
     ASSERT_TRUE(answer.accepted) << to_text(action) << ": " << answer.text;
@@ -76,7 +76,7 @@ class LateOrder : public SignedDaemonTest {
     EXPECT_EQ(other_->state("elbow")->mode, static_cast<std::int32_t>(mode)) << daemon_->log();
     EXPECT_NEAR(other_->state("elbow")->joint_position_rad, before_rad_, 1e-3);
   }
-  /// A move is kept back; after 0.3 s another holds the joint; `delay_s` after the move was sent it comes to the daemon.
+  /// Delays a move. After 0.3 s another client holds the joint, and `delay_s` after it was sent the move reaches the daemon.
   void deliver_a_move_late(double delay_s, bool suspended) {
     relay_->keep_back(true);
     Program move(key_file_, {"move", "elbow", "0.89"});
@@ -92,7 +92,7 @@ class LateOrder : public SignedDaemonTest {
     EXPECT_NE(move.wait(), 0);
     expect_that_the_joint_stays(Mode::kHolding);
   }
-  /// A program of ours, in this one, that stands still for `seconds` between reading the state and sending `message`, while `happens`.
+  /// A client that pauses for 1.5 s between reading the state and sending `message`. Meanwhile `happens` runs.
   template <typename Message, typename Happens>
   Reason reason_after_standing_still(std::string_view kind, Message message, const Happens& happens) {
     Connection connection(kTestUrl);

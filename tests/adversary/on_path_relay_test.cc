@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody on the path between client and daemon: passes on what he likes, keeps back what he likes, and delivers it later.
+// An attacker on the path between client and daemon forwards, withholds and delays messages at will.
 #include "tests/adversary/relay.h"
 #include "tests/adversary/signed_daemon.h"
 
 namespace strainwave::testing {
 namespace {
 
-/// Twice as long as an order lives, and much shorter than the daemon could recognise its challenge: it is the age that refuses.
+/// Twice the lifetime of an order, and far shorter than the memory of challenges, so that the refusal is due to age.
 constexpr std::int64_t kLong_cycles = 2'500;
 
 class OnPathRelay : public SignedDaemonTest {
@@ -23,7 +23,7 @@ class OnPathRelay : public SignedDaemonTest {
         "elbow", [&](const state_v1& state) { return state.cycle > from + cycles; },
         std::chrono::seconds(180)));
   }
-  /// Keeps `message` back for long, then delivers it; the daemon's answer.
+  /// Withholds `message` for kLong_cycles and then delivers it. Returns the daemon's answer.
   template <typename Message>
   Answer deliver_late(const char* kind, const Message& message) {
     relay_->keep_back(true);
@@ -59,7 +59,7 @@ TEST_F(OnPathRelay, CannotEnableAJointThatWasDisabledMeanwhile) {
   EXPECT_EQ(client_->state("elbow")->mode, static_cast<std::int32_t>(Mode::kOff));
 }
 
-// At once: neither is too old. A stop in between would refuse the first one for itself (stranger_test).
+// Both moves are sent at once, so that neither is too old. A stop between them would already refuse the first one (stranger_test).
 TEST_F(OnPathRelay, CannotDeliverAMoveAfterALaterOne) {
   relay_->keep_back(true);
   const setpoint_v1 move = client_->make_setpoint("elbow", 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends datagrams to the tests' LCM group from a port of its own: to the gateway, a source of its own.
+// Sends datagrams to the tests' LCM group from its own port, so that the gateway sees a separate source.
 #pragma once
 
 #include <arpa/inet.h>
@@ -19,7 +19,7 @@ class PortSender {
     ::inet_pton(AF_INET, "239.255.76.67", &group_.sin_addr);
   }
 
-  /// As UDP is: what the system does not take is lost.
+  /// Errors are ignored: as usual with UDP, a datagram that the system does not accept is lost.
   void send(const Bytes& datagram) const {
     ::sendto(socket_.get(), datagram.data(), datagram.size(), 0,
              static_cast<const sockaddr*>(static_cast<const void*>(&group_)), sizeof group_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody on the path between client and daemon: two LCM networks on two ports, and the only way between them.
+// An attacker on the path between client and daemon: the only link between two LCM networks on two ports.
 #pragma once
 
 #include <poll.h>
@@ -16,7 +16,7 @@
 
 namespace strainwave::testing {
 
-/// Where the daemon is.
+/// The network of the daemon.
 inline constexpr const char* kInsideUrl = "udpm://239.255.76.67:7668?ttl=0";
 class Relay {
  public:
@@ -37,7 +37,7 @@ class Relay {
     const std::lock_guard lock(mutex_);
     return kept_.size();
   }
-  /// Everything that was kept back, in its order.
+  /// Delivers the withheld messages in their order.
   void deliver() {
     const std::lock_guard lock(mutex_);
     for (const Kept& order : kept_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A network adapter that goes and comes back under its name and address, as one on USB does, and one that is not there at start: with the
-// real daemon and our own programs, in a network of the test's own.
+// A network adapter that disappears and returns with the same name and address, as a USB adapter does, and one that is missing at start. The tests
+// use the real daemon and our own programs in a separate network.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -58,7 +58,7 @@ class ReturningAdapter : public DaemonTest {
     }
   }
 
-  static constexpr double kPatience_s = 10.0;  // of a host with other things to do
+  static constexpr double kPatience_s = 10.0;  // allows for a busy host
 };
 
 TEST_F(ReturningAdapter, IsJoinedAnewByTheDaemonAndByWhoeverListens) {

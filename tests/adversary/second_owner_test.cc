@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody with a key of his own who orders a joint that another one has: over LCM, with the real daemon.
+// A client with a valid key orders a joint that another client owns, over LCM with the real daemon.
 #include "tests/adversary/signed_daemon.h"
 
 namespace strainwave::testing {
 namespace {
 
-/// security.lease_s, as the daemon has it by default, and as much again for a busy host.
+/// The default of security.lease_s, twice as long for a busy host.
 constexpr std::chrono::seconds kLongerThanALease{6};
 
 class SecondOwner : public SignedDaemonTest {
@@ -49,7 +49,7 @@ TEST_F(SecondOwner, MayStopTheJointAllTheSame) {
   EXPECT_TRUE(intruder_->wait_for_mode("elbow", Mode::kOff)) << daemon_->log();
 }
 
-// The owner's move, and the other's hold at the same instant: whichever comes first, the joint stands.
+// The owner moves and the other client holds at the same instant. Whichever order comes first, the joint holds.
 TEST_F(SecondOwner, WhoHoldsTheJointIsNotOverruledByAMoveThatWasOrderedBefore) {
   ASSERT_TRUE(owner_moves(0.1).accepted);
   for (int i = 0; i < 10; ++i) {
@@ -64,7 +64,7 @@ TEST_F(SecondOwner, WhoHoldsTheJointIsNotOverruledByAMoveThatWasOrderedBefore) {
   EXPECT_NEAR(owner_->state("elbow")->joint_position_rad, 0.1, 1e-2);
 }
 
-// Two programs, one after the other: what the second hears is from after the stop that the first was told of.
+// Two programs run one after the other. The second one reads a state that is newer than the stop acknowledged to the first.
 TEST_F(SecondOwner, MayEnableTheJointOnceAnotherProgramsDisableIsAnswered) {
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(intruder_orders(Action::kDisable).accepted) << i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A daemon that obeys signed orders only, and what signs them.
+// A daemon that obeys only signed orders, and the keys that sign them.
 #pragma once
 
 #include <fstream>
@@ -27,7 +27,7 @@ class SignedDaemonTest : public DaemonTest {
     text.replace(text.find(open), open.size(), "authorized_keys = \"keys\"");
     daemon_.emplace(folder_, text);
   }
-  /// Publishes `message`, signed; its answer is waited for elsewhere.
+  /// Publishes `message`, signed, and does not wait for the answer.
   template <typename Message>
   void publish(TestClient& client, const char* kind, const Message& message) {
     publish(client, kind, message, key_);
@@ -49,7 +49,7 @@ class SignedDaemonTest : public DaemonTest {
     publish(client, kind, message, key);
     return client.wait_for_answer(message.sequence);
   }
-  /// The joint holds, with the table that is shipped for it.
+  /// Loads the shipped table and brings the joint to hold.
   void bring_to_hold(TestClient& client) {
     ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
     ASSERT_TRUE(send(client, "TABLE", client.make_table("elbow", shipped_table())).accepted)
@@ -66,8 +66,8 @@ class SignedDaemonTest : public DaemonTest {
     ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kOff)) << daemon_->log();
   }
 
-  SecretKey key_ = SecretKey::generate();           ///< an engineer's
-  SecretKey operator_key_ = SecretKey::generate();  ///< of somebody else, an operator
+  SecretKey key_ = SecretKey::generate();           ///< key of an engineer
+  SecretKey operator_key_ = SecretKey::generate();  ///< key of another client, an operator
   std::optional<DaemonProcess> daemon_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running daemon, stopped from outside in motion, and told to end by whatever can be sent to a process.
+// The running daemon is suspended during a motion, or receives every signal that can end a process.
 #include <signal.h>
 
 #include <array>
@@ -50,12 +50,12 @@ TEST_F(StalledDaemon, FaultsItsJointsWhenItHasBeenStoppedForThreeSeconds) {
 
 TEST_F(StalledDaemon, EndsInOrderByEverySignalThatMayBeSent) {
   std::vector<int> signals{SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGPIPE, SIGRTMIN};
-  // Somebody's, not the kernel's.
+  // Another process can send these signals too, not only the kernel.
   if (!kSanitized) signals.insert(signals.end(), {SIGABRT, SIGSYS, SIGSEGV, SIGBUS, SIGFPE, SIGILL});
   for (const int signal : signals) {
     move("stall_limit_s = 100\n");
     daemon_->signal(signal);
-    if (signal == SIGPIPE) {  // a log without a reader is no reason to end
+    if (signal == SIGPIPE) {  // a closed log must not end the daemon
       client_->pump(std::chrono::milliseconds(200));
       EXPECT_TRUE(daemon_->running());
       daemon_->signal(SIGTERM);

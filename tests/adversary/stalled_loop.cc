@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A loop that is not always there: periods left out, stalls, and a joint that goes on under the last
-// torque meanwhile. Virtual time.
+// A loop that skips periods or stalls, while the joint moves on under the last torque. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr OverrunLimits kAnything{1e6, 1.0};
 
-/// A joint that moves at 2 rad/s, at a steady speed.
+/// A joint that moves at a constant 2 rad/s.
 class StalledLoop : public ::testing::Test {
  protected:
   void move(const OverrunLimits& limits) {
@@ -57,7 +56,7 @@ TEST_F(StalledLoop, GoesOnAtTheSpeedThatItWasOrderedThroughSkippedPeriods) {
   EXPECT_NEAR(bench_->state(0).setpoint_position_rad - setpoint_rad, 4 * 0.002, 1e-9);
 }
 
-// More than kMaxElapsedPeriods: the stream is behind it, but not over.
+// The stall is longer than kMaxElapsedPeriods: the joint lags behind the stream, but the stream has not expired.
 TEST_F(StalledLoop, GoesOnWithAStreamAtItsTimes) {
   constexpr int kAway = kMaxElapsedPeriods + 20;
   JointBench bench({demo_joint()}, kAnything);
@@ -96,7 +95,7 @@ TEST_F(StalledLoop, IsAFaultAfterThreeSeconds) {
 }
 
 TEST_F(StalledLoop, IsAFaultBeforeItHasBeenAwayForTwentyMillisecondsManyTimes) {
-  // Each stall by itself is allowed here.
+  // These limits allow each single stall.
   move({0.1, 0.1});
   int stalls = 0;
   for (; stalls < 232 && bench_->fault(0) == Fault::kNone; ++stalls) {
@@ -107,7 +106,7 @@ TEST_F(StalledLoop, IsAFaultBeforeItHasBeenAwayForTwentyMillisecondsManyTimes) {
   EXPECT_LE(stalls, 6);
 }
 
-/// A drive that gives no torque without an order for 5 ms, so that no model knows what it does over a stall.
+/// A drive whose torque ends 5 ms after the last order, so that no model can predict a stall.
 BenchJoint watched_joint(const MotionLimits& motion, double overspeed_rad_s) {
   BenchJoint joint = demo_joint();
   joint.drive.watchdog_s = 0.005;
@@ -116,7 +115,7 @@ BenchJoint watched_joint(const MotionLimits& motion, double overspeed_rad_s) {
   return joint;
 }
 
-/// Stalls so long, somewhere in a motion over the whole range, of a joint that then must arrive without a fault.
+/// Stalls the loop for `periods` at ten instants of a motion over the whole range. The joint must arrive without a fault.
 void stall_anywhere(const BenchJoint& joint, const OverrunLimits& limits, int periods, double fastest_rad_s) {
   for (const double after_s : {0.02, 0.05, 0.13, 0.3, 0.7, 0.95, 1.2, 1.5, 1.57, 1.62}) {
     JointBench bench({joint}, limits);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stranger on the network: no key, no library of ours or LCM's, but everything that is published is known to him, and what
-// others send may reach him and nobody else. The worst of what one has tried, against the running daemon. The host's time judges
-// nothing: only what is obeyed, and after what.
+// A stranger on the network has no key and uses neither our library nor LCM's. He knows everything that is published, and messages of others may
+// reach him alone. These tests run the worst known attacks against the running daemon. The host's timing decides nothing: they judge only which
+// orders are obeyed, and in which order.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// command_v1 byte by byte, as docs/messages.md has it.
+/// command_v1 encoded byte by byte, as docs/messages.md describes it.
 struct RawCommand {
   std::int64_t session_id = 0;
   std::int64_t challenge = 0;
@@ -39,7 +39,7 @@ struct RawCommand {
   }
 };
 
-/// His socket: datagrams to LCM's group, in his own words.
+/// The stranger's socket: it sends arbitrary datagrams to LCM's group.
 class Stranger {
  public:
   void send(const Bytes& datagram) const { port_.send(datagram); }
@@ -52,7 +52,7 @@ class Stranger {
   std::uint32_t sequence_ = 0;
 };
 
-/// Calls `volley` in a thread of its own, `per_s` times a second on the average, until it goes out of scope.
+/// Calls `volley` in its own thread, `per_s` times a second on average, until it goes out of scope.
 class Barrage {
  public:
   Barrage(int per_s, std::function<void()> volley)
@@ -91,7 +91,7 @@ class StrangerTest : public SignedDaemonTest {
     sign(std::string("SW.elbow.") + kind, key_, bytes);
     return bytes;
   }
-  /// A stop of the stranger's, in the name of the client, which so hears the answer: it needs neither session nor key.
+  /// The stranger sends a stop, which needs neither session nor key. It carries the client's sender id, so that the client receives the answer.
   void stranger_stops(Action action) {
     RawCommand stop;
     stop.sender_id = client_->sender_id();
@@ -101,7 +101,7 @@ class StrangerTest : public SignedDaemonTest {
     const Answer answer = client_->wait_for_answer(stop.sequence);
     ASSERT_TRUE(answer.accepted) << answer.text;
   }
-  /// What he has overheard so far, with a key that the daemon knows and a signature that is wrong.
+  /// An order made of overheard fields, with a key that the daemon knows and a wrong signature.
   RawCommand forged(Action action) {
     RawCommand command;
     command.session_id = client_->state("elbow")->session_id;
@@ -113,7 +113,7 @@ class StrangerTest : public SignedDaemonTest {
     command.signature.assign(overheard.end() - 64, overheard.end());
     return command;
   }
-  /// Listens, and lets the barrage know the latest challenge.
+  /// Receives messages and updates the challenge that the barrage quotes.
   void listen(milliseconds duration) {
     const auto end = std::chrono::steady_clock::now() + duration;
     while (std::chrono::steady_clock::now() < end) {
@@ -121,7 +121,7 @@ class StrangerTest : public SignedDaemonTest {
       challenge_ = client_->state("elbow")->challenge;
     }
   }
-  /// As strainwavectl does: transmitted up to four times, the same message.
+  /// Transmits the same message up to four times, as strainwavectl does.
   Answer insist(const command_v1& message) {
     for (int i = 0; i < 4; ++i) {
       publish(*client_, "COMMAND", message);
@@ -200,7 +200,7 @@ TEST_F(StrangerTest, CannotKeepADisableFromBeingObeyedByTenThousandCraftedDatagr
     listen(milliseconds(300));
     if (i > 0) enable(*client_);
     RawCommand order = forged(Action::kEnable);
-    // Ten a volley: fragments that lie, a message in parts, orders whose signature must be looked at, and what is nothing at all.
+    // Each volley has ten datagrams: crashing fragments, a message in parts, orders with a wrong signature, and noise.
     const Barrage barrage(1000, [&] {
       const auto number = static_cast<std::uint32_t>(++order.sequence);
       Stranger& port = ports[number % ports.size()];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Table or configuration say what the joint is not: held, and moved by little and by much, its torque stops reversing soon after the first
-// motion. Virtual time.
+// The gain table or the configuration describes the joint wrongly. The joint holds and makes a small and a large move. Its torque must stop reversing
+// soon after the first motion. Virtual time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +11,9 @@ namespace strainwave::testing {
 namespace {
 
 constexpr double kCounted_rad = 40e-6;  // two counts of the motor's encoder
-constexpr double kReversal_Nm = 4.0;    // more than the law's own friction compensation makes
+constexpr double kReversal_Nm = 4.0;    // more than the friction compensation of the control law
 
-/// The demo's joint at 5 rad/s and 60 rad/s^2, which no following error ends.
+/// The demo's joint at 5 rad/s and 60 rad/s^2, with a following error limit that never trips.
 BenchJoint patient_joint() {
   BenchJoint joint = demo_joint();
   joint.drive.ambient = TemperatureProfile::constant(20.0);
@@ -24,14 +24,14 @@ BenchJoint patient_joint() {
   return joint;
 }
 
-/// Steps for `periods`. From the first motion on the torque reverses for at most two seconds, but where a motion that lasts longer begins to
-/// brake, and where it stops.
+/// Steps for `periods`. The torque may reverse for two seconds after the first motion. If the motion lasts longer, it may also reverse once where the
+/// braking begins and once at the stop.
 void expect_quiet(JointBench& bench, int periods, const ::testing::Message& what) {
   constexpr int kQuietAfter = 2000;  // periods
   const double begin_rad = bench.state(0).joint_position_rad;
   int first_motion = -1;
   int late = 0;
-  bool still_moves = false;  // by its orders, when the time is over
+  bool still_moves = false;  // ordered to move at the end of those two seconds
   double side = 0.0;
   for (int k = 0; k < periods; ++k) {
     bench.step();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses threads, under contention: order kept, losses counted, nothing torn.
+// Data exchange between threads under contention: it keeps the order, counts losses and tears no value.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -53,7 +53,7 @@ Whole example() {
           Part{0.1}, {{1.0}, {2.0}},         {1, 2, 3, 4}, {5, 6}};
 }
 
-/// What the reader says of the example's text with one part of it replaced.
+/// The reader's message for the example's text with `from` replaced by `to`.
 std::string refusal_with(const std::string& from, const std::string& to) {
   std::string text = json_text(example());
   const auto place = text.find(from);

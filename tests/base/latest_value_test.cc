@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses from an ordinary thread to the loop: also run under the thread sanitizer.
+// Values from an ordinary thread for the loop. Also run under the thread sanitizer.
 #include "base/latest_value.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ TEST(Printable, KeepsTextAndDropsWhatCommandsATerminal) {
 }
 
 TEST(Printable, ShowsNoTextInAnotherOrderThanItIs) {
-  // U+202E turns the direction, U+2028 begins a line, U+200B is invisible, U+FEFF too.
+  // U+202E reverses the writing direction, U+2028 begins a line, U+200B and U+FEFF are invisible.
   EXPECT_EQ(printable("elbow\u202Edelbasid"), "elbow?delbasid");
   EXPECT_EQ(printable("a\u2028b\u200Bc\uFEFFd\u2066e"), "a?b?c?d?e");
   EXPECT_EQ(printable("a\u115Fb\u3164c\uFFA0d"), "a?b?c?d");
@@ -52,7 +52,7 @@ TEST(ShellWord, IsReadBackByAShell) {
 }
 
 TEST(Printable, TakesNothingForTextThatIsNoUtf8) {
-  // A terminal of eight bits obeys 9Bh by itself; an overlong escape, a lone surrogate, a sequence that ends too early.
+  // Byte 9Bh, which eight-bit terminals obey; then an overlong escape, a lone surrogate, a truncated sequence.
   EXPECT_EQ(printable("a\x9B"
                       "2J"),
             "a?2J");

@@ -27,7 +27,7 @@ TEST_F(TextFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read_text_file(folder_ / "a"), "short");
 }
 
-// A limit of the process stands for the end of the disk; root has none of the quotas that would do as well.
+// The process's limit on file sizes simulates a full disk. A disk quota would not bind root.
 TEST_F(TextFile, ThatDoesNotFitIsNotTheUsersMistake) {
   write_text_file(folder_ / "a", "kept");
   rlimit before{};
@@ -56,7 +56,7 @@ TEST_F(TextFile, LeavesNoTemporaryFiles) {
 }
 
 TEST_F(TextFile, AFailedReplacementKeepsTheOldFileAndCleansUp) {
-  // A folder that is not empty cannot be replaced by a file.
+  // A file cannot replace a folder that is not empty.
   std::filesystem::create_directories(folder_ / "target" / "inner");
   EXPECT_THROW(write_text_file(folder_ / "target", "text"), InputError);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "target" / "inner"));

@@ -129,7 +129,7 @@ TEST(TomlSection, CountsNoDotsOfStringsCommentsAndNumbers) {
 }
 
 TEST(TomlSection, ShowsNothingThatCommandsATerminal) {
-  // An escape, a turned direction of writing and another line, as values and as keys.
+  // An escape sequence, a reversed writing direction and a line break, in values and in keys.
   const std::string hostile = R"("\u001b[2J\u202e\nsound")";
   for (const std::string& text :
        {"torque_Nm = " + hostile, hostile + " = 1\ntorque_Nm = 1", "torque_Nm = 1\n[" + hostile + "]",

@@ -8,7 +8,7 @@
 namespace strainwave {
 namespace {
 
-// The gear of the source, and numbers that were worked out with a pocket calculator.
+// The gear of the source. The expected numbers come from a pocket calculator.
 constexpr double kRatio = 50.0;
 
 TEST(Units, AViscousTorqueIsTheSameWhetherItIsConvertedAsOneOrAsSpeedTimesCoefficient) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A random joint with what stands between it and the daemon, for the tests of commissioning.
+// A random joint behind errors in its readings and commands, for the tests of commissioning.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace strainwave::testing {
 
-/// As a user has it that knows the joint.
+/// The configuration of a user with exact knowledge of the joint.
 inline CommissioningConfig configure(const RandomJoint& joint) {
   const JointPlantConfig& plant = joint.drive.plant;
   CommissioningConfig config;
@@ -34,12 +34,12 @@ inline CommissioningConfig configure(const RandomJoint& joint) {
   return config;
 }
 
-/// The joint with what stands between it and the daemon.
+/// The joint behind errors in its readings and commands.
 class Bench {
  public:
   explicit Bench(const RandomJoint& joint) : drive_(joint.drive) {}
 
-  /// Position and torque of the daemon over those of the joint.
+  /// Sets the ratios of the daemon's position and torque to those of the joint.
   void scale(double position, double torque) {
     position_ = position;
     torque_ = torque;
@@ -64,7 +64,7 @@ class Bench {
     drive_.write(command);
   }
 
-  /// To the end; interrupted after so many periods of `in`.
+  /// Runs to the end. Aborts the step whose line begins with `in` after `after` periods.
   void run(Commissioning& commissioning, const std::string& in = "", int after = 0) {
     while (const std::optional<std::string> line = commissioning.begin()) {
       lines_ += *line + "\n";

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kWrong = 1.5;
 
-/// One whole run, made once. The drive filters the torque that it reports, as many do.
+/// One complete run, shared by the tests. The drive filters the torque that it reports, as many drives do.
 struct Whole {
   RandomJoint joint = random_joint(2);
   CommissioningConfig config = configure(joint);
@@ -36,7 +36,7 @@ Whole& whole() {
   return run;
 }
 
-/// What a joint measured as `whole` is said to be wrong in, were it configured so.
+/// The defect that commissioning reports if the configuration of the joint in whole() is falsified.
 std::string wrong_in(const std::function<void(ConfiguredNumbers&)>& falsify) {
   CommissioningConfig config = whole().config;
   falsify(config.configured);
@@ -87,7 +87,7 @@ TEST(Commissioning, HasAResponseThatTheModelExplains) {
     phases_rad.push_back(
         std::abs(std::remainder(point.phase_rad - std::arg(response), 2.0 * std::numbers::pi)));
   }
-  // The windows smear the resonance and the antiresonance, where friction fills the gap besides.
+  // Medians, since the windows smear the resonance and the antiresonance. Friction also fills the antiresonance.
   EXPECT_LT(median(magnitudes_dB), 2.0);
   EXPECT_LT(median(phases_rad), 0.3);
 }
@@ -121,7 +121,7 @@ TEST(Commissioning, SaysNothingOfNumbersThatAreNotConfigured) {
 TEST(Commissioning, NamesAWrongRatioAndTheRightOne) {
   const RandomJoint joint = random_joint(2);
   CommissioningConfig config = configure(joint);
-  // Torque at the joint is computed with the ratio, position with its inverse.
+  // The daemon multiplies torque by the ratio, and divides position by it.
   Bench bench(joint);
   bench.scale(1.0 / kWrong, kWrong);
   const double middle = config.excitation.start_rad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// controller_study [JOINTS [FIRST]]: controllers made of what commissioning finds of random joints, against those made of the true numbers,
-// on the true joint, as tables; the joints one by one on the standard error. It runs strainwave-design beside it, as `commission` does.
+// controller_study [JOINTS [FIRST]]: compares controllers from the results of commissioning with controllers from the true numbers, on random
+// joints. Prints tables, and one line per joint on the standard error. Runs the strainwave-design in its folder, as `commission` does.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -24,11 +24,11 @@ namespace {
 constexpr std::array kMoves_rad{0.01, 0.1, 1.0};
 constexpr double kMove_s = 4.0;
 
-/// What the numbers of one record lead to.
+/// The controller from the numbers of one record, and its results.
 struct Outcome {
   std::optional<GainTable> table;
-  JointPlantConfig model;               ///< what the controller knows
-  std::vector<FlexibleResult> results;  ///< of each move
+  JointPlantConfig model;               ///< the controller's model of the joint
+  std::vector<FlexibleResult> results;  ///< one per move
 };
 
 struct Row {
@@ -47,7 +47,7 @@ CommissionRecord record_of(const RandomJoint& joint, const JointEstimates& found
   return record;
 }
 
-/// The same record, had everything been found as it is.
+/// The record `found` with the true numbers in place of the measured ones.
 CommissionRecord true_record(const RandomJoint& joint, const CommissionRecord& found,
                              const std::vector<Comparison>& compared) {
   const JointPlantConfig& plant = joint.drive.plant;
@@ -76,7 +76,7 @@ CommissionRecord true_record(const RandomJoint& joint, const CommissionRecord& f
   return record;
 }
 
-/// As `commission` makes it; nothing where no gains are certified.
+/// The table that `commission` would make; nothing if no gains are certified.
 std::optional<GainTable> design(const RandomJoint& joint, const CommissionRecord& record) {
   const TemporaryFolder folder;
   write_commission_record(folder.path(), record);
@@ -94,7 +94,7 @@ std::optional<GainTable> design(const RandomJoint& joint, const CommissionRecord
   return std::nullopt;
 }
 
-/// The joint as its configuration would have it: the keys that `commission` sets.
+/// The model of the joint according to the keys that `commission` sets in the configuration.
 JointPlantConfig model_of(const RandomJoint& joint, const CommissionRecord& record) {
   JointPlantConfig model = joint.drive.plant;
   Transmission& gear = *model.effects.transmission;

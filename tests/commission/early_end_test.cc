@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commissioning that ends early: with what reason, and how soon.
+// Commissioning that ends early: the reported reason, and the time until then.
 #include <gtest/gtest.h>
 
 #include "tests/commission/commissioning_bench.h"

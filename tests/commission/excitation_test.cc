@@ -31,7 +31,7 @@ TEST(Excitation, StaysInsideItsLimitsAndComesBack) {
   }
 }
 
-/// A drive that holds what a test says of it.
+/// The reading of an enabled drive at this position.
 ActuatorReading reading_at(double position_rad) {
   ActuatorReading reading;
   reading.joint_position_rad = position_rad;
@@ -85,7 +85,7 @@ TEST(Excitation, BrakesBeforeItEndsWhenItIsAborted) {
   EXPECT_LT(std::abs(drive.plant().state().velocity_rad_s), 0.2 * joint.excitation.limits.speed_rad_s);
 }
 
-// The drive takes hold of the joint before its brake opens: a motion that is ended then leaves it shut.
+// The drive holds the joint before its brake opens. An abort before that leaves the brake shut.
 TEST(Excitation, LeavesABrakeShutThatIsNotYetOpen) {
   const RandomJoint joint = random_joint(2);
   Excitation excitation(joint.excitation);
@@ -115,7 +115,7 @@ TEST(Excitation, EndsWhereTheJointMovesWithoutTorque) {
   EXPECT_NE(excitation.problem().find("without torque"), std::string::npos) << excitation.problem();
 }
 
-// A hand in the way, or an encoder that stands still.
+// A hand blocks the joint, or the encoder is stuck.
 TEST(Excitation, EndsAStrokeInWhichTheJointDoesNotMove) {
   ExcitationConfig config = random_joint(2).excitation;
   config.part = ExcitationPart::kSteadyStrokes;
@@ -140,7 +140,7 @@ TEST(Excitation, IsAbortedWhileItBrakesAtItsRegularEnd) {
   EXPECT_EQ(excitation.problem(), "a key was pressed");
 }
 
-// Feedback that is turned round would drive what it is to brake.
+// Feedback with the wrong sign would accelerate the joint instead of braking it.
 TEST(Excitation, DisablesAJointThatSpeedsUpWhileItIsBraked) {
   const RandomJoint joint = random_joint(2);
   SimulatedActuator drive(joint.drive);

@@ -12,7 +12,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// A joint of the study (tests/commission/study.cc) and what is found of it.
+/// A joint of the study (tests/commission/study.cc) and the result of its identification.
 struct Found {
   RandomJoint joint;
   CommissionedJoint run;
@@ -26,7 +26,7 @@ Found find(std::uint64_t seed) {
   return {joint, std::move(run), estimates};
 }
 
-/// Made once: it takes seconds.
+/// Computed once, since it takes seconds.
 const Found& found() {
   static const Found one = find(2);
   return one;
@@ -41,7 +41,7 @@ std::optional<double> goal(const std::string& quantity) {
   return std::nullopt;
 }
 
-// 160 gives its resonance and its link only where the sines rise towards the resonance. The whole study is commission_study.
+// Joint 160 reveals its resonance and link only with larger sines at higher frequencies. The complete study is commission_study.
 TEST(Identification, FindsTheNumbersOfTwoJointsWithinGoalsAndIntervals) {
   int all = 0, held = 0;
   for (const std::uint64_t seed : {2U, 160U}) {
@@ -57,12 +57,12 @@ TEST(Identification, FindsTheNumbersOfTwoJointsWithinGoalsAndIntervals) {
       held += comparison.found.holds(comparison.truth) ? 1 : 0;
     }
   }
-  // 95 % are meant; the study's goal is 90 %.
+  // The intervals are those of 95 %. The study's goal is 90 %.
   EXPECT_GE(held, std::lround(0.9 * all)) << held << " of " << all;
 }
 
-// Joints that swing little under what moves them: friction, gravity, a small range of speed. What cannot be known is then not found.
-// 157 swings within its lost motion, where another lost motion and a spring 60 % stiffer fit as well.
+// Friction, gravity or a small speed range let these joints swing only a little. The identification must leave out unknowable numbers.
+// Joint 157 swings within its lost motion: another lost motion and a 60 % stiffer spring fit as well.
 TEST(Identification, FindsNothingWrongWhereTheMotionShowsLittle) {
   int absent = 0;
   for (const std::uint64_t seed : {62U, 157U}) {
@@ -90,7 +90,7 @@ TEST(Identification, FindsTheTorqueOfBreakingAwayBothWays) {
   const Found& one = found();
   const JointPlantConfig& plant = one.joint.drive.plant;
   const double truth = plant.joint.friction.at(one.joint.drive.ambient.at(0.0)).static_Nm;
-  // Gravity helps one way and is in the way of the other; its mean is left out.
+  // Gravity helps in one direction and hinders in the other, so the mean of both directions cancels it.
   const auto& [up, down] =
       std::pair(one.estimates.breakaway_positive_Nm, one.estimates.breakaway_negative_Nm);
   ASSERT_TRUE(up && down);

@@ -15,7 +15,7 @@ namespace strainwave::testing {
 
 namespace {
 
-/// Uniform; the same everywhere.
+/// Uniform random numbers, the same on every platform.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) { random_.discard(10); }
@@ -35,14 +35,14 @@ void scale(ExponentialTemperatureLaw& law, double factor) {
   }
 }
 
-/// What friction adds in proportion to the load: gravity's, a mean over the way of the strokes at this speed.
+/// Friction in proportion to the load: that of gravity, averaged over the range of the strokes at this speed.
 double friction_by_load_Nm(const RandomJoint& joint, double speed_rad_s) {
   const JointEffects& effects = joint.drive.plant.effects;
   double best = 1e300;
   double low_rad = 0.0, high_rad = 0.0, from_rad = joint.excitation.start_rad;
   for (const Stroke& stroke : plan_strokes(joint.excitation)) {
     const double off = std::abs(std::log(stroke.speed_rad_s / speed_rad_s));
-    if (!stroke.shaken && off <= best) {  // the last of a speed: there and back are over its way
+    if (!stroke.shaken && off <= best) {  // the last stroke at a speed: both directions cover its range
       best = off;
       low_rad = std::min(from_rad, stroke.to_rad);
       high_rad = std::max(from_rad, stroke.to_rad);
@@ -67,7 +67,7 @@ RandomJoint random_joint(std::uint64_t seed) {
   joint.gear = gear.name;
   const double N = gear.ratio;
   const double generator = gear.wave_generator_inertia_kgm2 * N * N;
-  const double motor = generator * draw(1.2, 2.5);  // with a rotor
+  const double motor = generator * draw(1.2, 2.5);  // wave generator and rotor
   const double link = motor * std::max(0.1, draw(0.0, 3.0));
   joint.told = {N, gear.spring, gear.lost_motion_rad, generator};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints of the catalogue drawn at random, with all effects of the simulation, and what commissioning finds of them.
+// Random joints of the catalogue, with all effects of the simulation, and the results of their commissioning.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace strainwave::testing {
 
 struct RandomJoint {
   std::string gear;
-  double friction_scale = 1.0;  ///< of the catalogue's estimate
+  double friction_scale = 1.0;  ///< ratio to the catalogue's estimate
   SimulatedActuatorConfig drive;
   ExcitationConfig excitation;
-  ToldJoint told;  ///< by the catalogue alone: the wave generator's inertia and the nominal spring
+  ToldJoint told;  ///< from the catalogue alone: inertia of the wave generator, nominal spring
 };
 
 RandomJoint random_joint(std::uint64_t seed);
@@ -34,7 +34,7 @@ struct CommissionedJoint {
 /// Runs the excitation on the joint.
 CommissionedJoint excite(const RandomJoint& joint);
 
-/// One number that was found, and the true one.
+/// One identified number and its true value.
 struct Comparison {
   std::string quantity;
   double truth = 0.0;
@@ -52,7 +52,7 @@ struct Comparison {
   double per_unit() const { return quantity == "delay" ? 1e3 : quantity == "gravity" ? 1.0 : 100.0 / truth; }
 };
 
-/// Everything that the goals name.
+/// Compares every identified number with its true value.
 std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& found);
 
 }  // namespace strainwave::testing

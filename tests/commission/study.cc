@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// commission_study [JOINTS [FIRST]]: what commissioning finds of random joints of the catalogue, as tables; the joints one by one on the
-// standard error.
+// commission_study [JOINTS [FIRST]]: the results of commissioning on random joints of the catalogue, as tables. It prints one line per joint
+// on the standard error.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>

@@ -16,7 +16,7 @@ ProofMatrix random_matrix(std::mt19937_64& random, Eigen::Index rows, Eigen::Ind
   return ProofMatrix::NullaryExpr(rows, columns, [&] { return std::ldexp(normal(random), power(random)); });
 }
 
-// A matrix, and another within its bounds: what the bounded one stands for.
+// A bounded matrix, and an exact matrix within its bounds.
 struct Meant {
   BoundedMatrix bounded;
   Wide exact;

@@ -8,7 +8,7 @@
 namespace strainwave {
 namespace {
 
-// Long double is 11 bits wider: its own error is far below the bounds in question.
+// A long double has 11 more bits than a double. Its own error is far below the tested bounds.
 struct Pair {
   Bounded bounded;
   long double exact = 0.0L;
@@ -39,7 +39,7 @@ TEST(Bounded, ErrorBoundsCoverWhatHappensInRandomExpressions) {
     const Pair result = random_expression(random, 5);
     if (!std::isfinite(result.bounded.error)) continue;
     const long double error = std::abs(static_cast<long double>(result.bounded.value) - result.exact);
-    // The long double's own error: 2^-64 relative per operation, of which the bound (2^-53 each) is 2^11 times.
+    // The factor covers the long double's own error, 2^-64 relative per operation. The bound is 2^-53 per operation.
     ASSERT_LE(error, static_cast<long double>(result.bounded.error) * 1.001L) << i;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes of rigid joints.
+// Stability certificates of rigid joints.
 #include "control/table/box_certificate.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace strainwave {
 namespace {
 
-// With an integrator and without.
+// Tables with an integrator and without.
 TEST(RigidBox, ProvesTheShippedTablesOfRigidJoints) {
   for (const char* const name : {"rhs17-6006", "total-0.119/c1", "total-0.356/c2", "total-1.089/c4"}) {
     const GainTable table = testing::shipped_table(name);
@@ -27,8 +27,8 @@ TEST(RigidBox, ProvesTheShippedTablesOfRigidJoints) {
   }
 }
 
-// The statement itself, by the rigid joint's own solution and a loop written down by hand: V falls whatever friction and blend act in a
-// period.
+// Checks the certified statement with the rigid joint's exact solution and a hand-written loop: V falls in every period, for any viscous
+// friction and any blend of gains.
 TEST(RigidBox, VOfARigidJointFallsInEveryPeriodOfTheLoopThatRuns) {
   const GainTable table = testing::shipped_table("rhs17-6006");
   const std::vector<GainRow> gains = gains_of(table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The daemon's controller on the simulated joint, whose friction law is not the controller's own, a period at a time.
+// The daemon's controller on the simulated joint, one period at a time. The joint's friction law differs from the controller's.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline JointControllerConfig realistic_config() {
   return config;
 }
 
-/// One joint under control, a period at a time.
+/// One joint under control. Each step() is one period.
 class ControlledJoint {
  public:
   explicit ControlledJoint(const JointPlantConfig& plant = realistic_plant(),
@@ -51,12 +51,12 @@ class ControlledJoint {
     for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
   }
   JointController& controller() { return controller_; }
-  /// The link's, where there is a spring.
+  /// True position, on a flexible joint that of the link.
   double position_rad() const { return plant_.link_state().position_rad; }
 
   double temperature_C;
   double load_torque_Nm = 0.0;
-  double noise_rad = 0.0;  ///< of the next readings
+  double noise_rad = 0.0;  ///< error of the next readings
 
  private:
   JointPlant plant_;

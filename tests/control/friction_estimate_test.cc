@@ -13,12 +13,12 @@ const Gear& gear_named(const std::string& name) {
   return *find_gear(name);
 }
 
-/// The RHS-17-6006's at its joint.
+/// Friction of the RHS-17-6006, joint side.
 FrictionParameters known(double temperature_C) {
   return catalogue_joint().friction_at(temperature_C, 50.0);
 }
 
-/// Of a turning motor, at the motor.
+/// Friction torque of a turning motor, motor side.
 double motor_running_Nm(const FrictionParameters& friction, double motor_rpm, double ratio) {
   const double joint_rad_s = joint_velocity_rad_s_from_motor_rpm(motor_rpm, ratio);
   return (friction.coulomb_Nm + friction.viscous_Nms_rad * joint_rad_s) / ratio;

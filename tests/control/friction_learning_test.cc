@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scales of the temperature rules, learned from the feedback's torque.
+// Scales of the temperature rules, learned from the feedback torque.
 #include "control/friction/friction_learning.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(FrictionLearning, AddsTheFeedbackToTheFeedForwardAtTheRateOfItsHeader) {
   EXPECT_GT(friction_1_s, load_1_s);
   EXPECT_GT(load_1_s, 0.0);
   EXPECT_LE(friction_1_s + load_1_s, 40.0 + 1e-6);  // the certified loop's bound
-  // s_i' is as w_i / F_i: three times the weight, half of the friction's reciprocal.
+  // s_i' is proportional to w_i / F_i. The cold rule has three times the weight and twice the friction.
   EXPECT_NEAR(learning.learned().scale[0] / learning.learned().scale[1], 1.5, 1e-9);
 }
 
@@ -82,7 +82,7 @@ TEST(FrictionLearning, LearnsNothingWhileItIsFrozen) {
   EXPECT_NE(learning.learned(), before);
 }
 
-// Braking with a wrong inertia: the last tenth of a motion shows torques that are no friction.
+// With a wrong inertia, braking in the last tenth of a motion causes feedback torque that is not friction.
 TEST(FrictionLearning, KeepsOfAMotionItsMeanAndNotItsEnd) {
   FrictionLearning learning = two_rules();
   const auto feed_back = [&](double feedback_Nm, int periods) {
@@ -99,7 +99,7 @@ TEST(FrictionLearning, KeepsOfAMotionItsMeanAndNotItsEnd) {
   EXPECT_LT(std::abs(learning.load_Nm() - cruise.load_Nm), 0.25 * std::abs(braked.load_Nm - cruise.load_Nm));
   const LearnedFriction kept = learning.learned();
   learning.learn_load(0.1, kPeriod_s);
-  learning.end_motion();  // nothing has moved since
+  learning.end_motion();  // without a motion since the last call
   EXPECT_EQ(learning.learned().scale, kept.scale);
   EXPECT_GT(learning.load_Nm(), kept.load_Nm);
 }

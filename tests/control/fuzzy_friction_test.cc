@@ -14,7 +14,7 @@ namespace {
 
 using Limits = std::numeric_limits<double>;
 
-/// Every magnitude that a double has, both signs, and what lies beyond.
+/// Doubles of every magnitude and both signs, and both infinities.
 std::vector<double> whole_range() {
   std::vector<double> values{
       0.0, -0.0, Limits::infinity(), Limits::max(), 1e308, Limits::denorm_min(), Limits::min()};

@@ -12,7 +12,7 @@
 namespace strainwave {
 namespace {
 
-/// data/gears.csv, cell by cell: by size and ratio, then by column. Empty cells are left out.
+/// Cells of data/gears.csv by size and ratio, then by column, without the empty ones.
 using Cells = std::map<std::string, double>;
 std::map<std::pair<double, double>, Cells> read_file() {
   const CsvText table = read_csv_text(STRAINWAVE_SOURCE_DIR "/data/gears.csv");
@@ -57,7 +57,7 @@ TEST(GearCatalogue, OrdersTorquesAndStiffnessWithinAGear) {
   }
 }
 
-// What grows by a power of size, as geometry has it, shows a wrong unit or digit by a factor.
+// Geometry scales these values with a power of the size. A wrong unit or digit shows as a factor.
 TEST(GearCatalogue, HasTheUnitsThatItsColumnsName) {
   for (const auto& [key, cells] : read_file()) {
     const auto [size, ratio] = key;

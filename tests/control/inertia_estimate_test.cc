@@ -15,12 +15,12 @@
 namespace strainwave::testing {
 namespace {
 
-/// The catalogue's table for another inertia.
+/// The table of the catalogue's joint, scaled to another inertia.
 GainTable table_for(double inertia_kgm2) {
   return scaled_table("c4.json", inertia_kgm2);
 }
 
-/// Of a joint that is configured with this inertia in all, on a spring as stiff as the joint's.
+/// Configuration of a joint with this total inertia. Its spring is as stiff as that of the simulated joint.
 JointControllerConfig config_for(double total_kgm2, double count_rad) {
   JointControllerConfig config;
   config.encoder_resolution_rad = count_rad;
@@ -34,12 +34,12 @@ JointControllerConfig config_for(double total_kgm2, double count_rad) {
 
 struct Case {
   TwoMassData joint;
-  double told_kgm2 = 0.178;  ///< what the table is for
+  double told_kgm2 = 0.178;  ///< inertia of the table and the configuration
   double temperature_C = 20.0;
-  double load_Nm = 0.0;  ///< that nobody tells
+  double load_Nm = 0.0;  ///< load that the controller does not know
 };
 
-/// Friction of `table` there, `factor` times.
+/// Friction of `table` at this temperature, multiplied by `factor`.
 TwoMassData with_friction(const GainTable& table, double temperature_C, double factor) {
   const FrictionParameters friction = table.friction.blend(table.friction.weights(temperature_C));
   TwoMassData data;
@@ -50,7 +50,7 @@ TwoMassData with_friction(const GainTable& table, double temperature_C, double f
   return data;
 }
 
-/// The daemon's controller by default moves the joint, a second each, and the estimate looks on.
+/// The daemon's controller moves the joint, one second per target, and the estimate observes it.
 class Watched {
  public:
   explicit Watched(const Case& what)
@@ -114,7 +114,7 @@ TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverIsConfigured) {
         }
 }
 
-// Windows last as long, whatever the period.
+// The windows of the estimate last the same time at every period.
 TEST(InertiaEstimate, IsTheSameForFasterAndSlowerLoops) {
   for (const double period_s : {1e-4, 2.5e-4, 1e-3, 4e-3}) {
     constexpr double kInertia_kgm2 = 0.2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller of a flexible joint beside what the studies ask of it (tests/sim/studies), on the simulated joint, whose friction and spring are not its own model's.
+// The controller of a flexible joint: cases that the studies (tests/sim/studies) do not cover. The friction and the spring of the simulated
+// joint differ from the controller's model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,14 +33,13 @@ JointControllerConfig config_for(const JointPlantConfig& plant) {
   return config;
 }
 
-/// `plant` with so many times its friction.
 JointPlantConfig with_friction(JointPlantConfig plant, double scale) {
   for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude})
     *part = {scale * part->static_Nm, scale * part->coulomb_Nm, scale * part->viscous_Nms_rad};
   return plant;
 }
 
-/// On `plant`, told that it is `told`.
+/// The simulated joint `plant` under a controller that is configured for `told`.
 class Loop : public testing::ControlledJoint {
  public:
   Loop(const JointPlantConfig& plant, const JointPlantConfig& told, double at_C,
@@ -74,7 +74,7 @@ Outcome move(Loop& loop, double target_rad) {
   return outcome;
 }
 
-// Without the damping the plan has the swing of a spring that nothing damps.
+// Without the configured damping the plan assumes an undamped spring.
 TEST(JointControllerWithLink, OvershootsLessWhereTheDampingIsConfigured) {
   for (const double target : {0.001, 0.01, 0.1, 1.0}) {
     JointPlantConfig plant = plant_with(0.267);
@@ -110,7 +110,7 @@ TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections
   EXPECT_LE(std::abs(standing_rad - 0.01), kBand_rad);
 }
 
-// Hardly damped, with friction a third less than told: the plans' own torque reverses hard, and a link that swings adds to it.
+// With little damping and 30 % less friction than configured, the planned torque reverses hard. A swinging link adds to it.
 TEST(JointControllerWithLink, SmallMovesOfAHeavyLinkInTheColdAreNoChatter) {
   for (const double link : {0.2, 0.25, 0.3})
     for (const double damping : {0.1, 0.3, 1.0})
@@ -153,7 +153,7 @@ TEST(JointControllerWithLink, AWeightThatItIsToldOfNeitherSagsNorHoldsTheLinkBes
       const double standing_rad = loop.position_rad();
       for (int k = 0; k < 200; ++k) {
         loop.step();
-        // The first torque comes a period late, and until then nothing but friction holds the joint.
+        // The first torque acts one period late. Until then only friction holds the joint.
         EXPECT_NEAR(loop.position_rad(), standing_rad, 60e-6) << "at the start, period " << k;
       }
       const Outcome outcome = move(loop, standing_rad + target);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stream tells of its load: what the controller makes of it, on the simulated joint.
+// How the controller uses the load that a stream reports, on the simulated joint.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,14 +24,14 @@ StreamSample sine(double t_s, const StreamLoad& load) {
           load};
 }
 
-/// How a load of 12 N.m comes, and what the stream says of it.
+/// A load that rises to 12 N.m, and its report in the stream.
 struct Coming {
-  double over_s = 0.0;  ///< evenly
+  double over_s = 0.0;  ///< duration of the linear rise
   int ahead = 0;        ///< periods that samples are stamped ahead; 0: no stamp
-  double told = 0.0;    ///< share
+  double told = 0.0;    ///< reported share of the load
 };
 
-/// The largest error from 0.1 s before the load comes until 0.5 s later.
+/// Largest following error from 0.1 s before the load begins to rise until 0.5 s after that.
 double error_when_a_load_comes(const Coming& coming) {
   constexpr int kComes = 3000;
   const auto load_Nm = [&](int k) {
@@ -61,7 +61,7 @@ TEST(JointControllerLoad, OneThatIsToldForItsTimeDisturbsLess) {
   EXPECT_GT(error_when_a_load_comes({0.01, 30, -1.0}), 1.3 * untold_rad) << "it is the torque that helps";
 }
 
-// The observer finds a load in some 10 ms, and a sample without a time tells of it as late.
+// The observer finds a load in about 10 ms. A sample without a stamp reports it as late as that, so only a slow load gains.
 TEST(JointControllerLoad, OneThatIsToldWhenItComesDisturbsLessWhereItComesSlowly) {
   EXPECT_LT(error_when_a_load_comes({0.2, 0, 1.0}), 0.5 * error_when_a_load_comes({0.2, 0, 0.0}));
 }
@@ -91,7 +91,7 @@ TEST(JointControllerLoad, TorqueStaysWithinItsLimitWhateverIsTold) {
   EXPECT_TRUE(saturated);
 }
 
-// Friction holds what the torque is late for: 0.4 N.m in an interval.
+// The reported torque is up to one interval late, which is 0.4 N.m. Friction holds that difference.
 TEST(JointControllerLoad, FollowsTheTorqueThatIsToldWhileTheJointRests) {
   ControlledJoint loop;
   JointStep step;
@@ -111,7 +111,7 @@ TEST(JointControllerLoad, FollowsTheTorqueThatIsToldWhileTheJointRests) {
   EXPECT_NEAR(step.output.torque_Nm - before_Nm, 4.0, 1e-9);
 }
 
-// A move under a load that takes the torque goes slower; the path after it does not.
+// A load that leaves little torque slows a move down, but not the path after it.
 TEST(JointControllerLoad, OfAMoveDoesNotSlowThePathAfterIt) {
   const auto references_rad = [](double load_Nm) {
     JointControllerConfig config = realistic_config();
@@ -138,7 +138,7 @@ TEST(JointControllerLoad, OfAMoveDoesNotSlowThePathAfterIt) {
   for (std::size_t k = 0; k < without_rad.size(); ++k) ASSERT_NEAR(after_rad[k], without_rad[k], 1e-4) << k;
 }
 
-// The load stays what it is when the stream ends: nothing steps, neither then nor when the next motion begins.
+// The load stays the same when the stream ends. The joint must not jump, neither then nor when the next motion begins.
 TEST(JointControllerLoad, MakesNoStepWhenTheStreamIsOver) {
   ControlledJoint loop;
   loop.load_torque_Nm = 8.0;

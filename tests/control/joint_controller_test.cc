@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller on the joint that its table is for.
+// The controller on the joint for which its table is designed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,8 +71,7 @@ TEST(JointController, BringsALoadStepBackToWithinAMilliradian) {
   }
 }
 
-// Whatever the encoder, and though its reading flickers: the last counts of a place to which the joint was not ordered are no reason to
-// move it.
+// With every encoder, and with a flickering reading, the controller sends no torque to a joint that has no order yet.
 TEST(JointController, LeavesAJointAloneThatStandsUntilItIsOrderedOn) {
   for (const double counts : {65536.0, 131072.0, 320000.0})
     for (const double start_counts : {-0.4, 0.1, 0.49}) {
@@ -130,7 +129,7 @@ TEST(JointController, BeginsWithTheMotionAndTheLoadThatItFinds) {
   EXPECT_EQ(plant.state().velocity_rad_s, 0.0);
 }
 
-/// Root of the mean square distance of the joint from its reference over a move to 1 rad and back at 1 rad/s.
+/// RMS following error over a move to 1 rad and back at 1 rad/s.
 double rms_error_rad(ControlledJoint& loop) {
   double squares = 0.0;
   for (const double target_rad : {1.0, 0.0}) {

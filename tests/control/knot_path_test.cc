@@ -22,7 +22,7 @@ KnotPath make_path(const std::vector<PathKnot>& knots) {
   return path;
 }
 
-/// Some knots at irregular times, at rest at both ends.
+/// Random knots at irregular times; the path rests at both ends.
 KnotPath random_path(std::mt19937& random, std::size_t count = 9) {
   std::uniform_real_distribution<double> interval(0.05, 0.6);
   std::uniform_real_distribution<double> position(-1.0, 1.0);
@@ -38,7 +38,7 @@ PathLimits wide() {
   return {{-1e6, 1e6}, {1e6, 1e6, 1e6}, 1e9, 0.5, 1e-3};
 }
 
-/// What a path needs, by looking at some 4000 instants of each segment, and ever closer to its knots.
+/// Range, speed and accelerations that a path needs, from about 4000 instants of each segment and more near its knots.
 struct Needs {
   double min_rad = 1e9, max_rad = -1e9, speed = 0.0, growing = 0.0, falling = 0.0;
   void see(const Reference& p) {
@@ -107,7 +107,7 @@ TEST(KnotPath, ReadInStepsItIsTheSameAsReadAtOnceAndRestsAfterItsEnd) {
   EXPECT_EQ(end.acceleration_rad_s2, 0.0);
 }
 
-// What a check of the knots alone would miss: on random paths it says exactly what looking at every instant says.
+// A check of the knots alone would miss these needs. On random paths find_defect() agrees with a dense sampling of the path.
 TEST(KnotPath, IsRefusedForExactlyWhatItNeedsBetweenItsKnots) {
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
@@ -169,7 +169,7 @@ TEST(KnotPath, NamesANumberThatIsNone) {
   EXPECT_EQ(find_defect(path, wide()), "knot 1 (at 1 s): velocity_rad_s = nan: a finite number is allowed");
 }
 
-// 45 degrees within a second: the range says more of what is wrong than the torque that this would take.
+// A position of 45, given in degrees by mistake, also exceeds the torque limit. The range explains the mistake better.
 TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
   PathLimits limits = wide();
   limits.torque_Nm = 2.9;
@@ -179,7 +179,7 @@ TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
             "knot 1 (at 1 s): position_rad = 45: at most 3.2 is allowed (joint.limits.position_max_rad)");
 }
 
-// A trapezoid of speed is made of cubics: with all limits used to the last bit it is possible.
+// Cubics represent a trapezoidal speed profile exactly, so a path may use its limits to the last bit.
 TEST(KnotPath, MayUseItsLimitsWhole) {
   const PathLimits limits{{0.0, 3.0}, {2.0, 4.0, 8.0}, 4.0, 0.5, 1e-3};
   const KnotPath path = make_path({{0, 0, 0}, {0.5, 0.5, 2}, {1.625, 2.75, 2}, {1.875, 3, 0}});

@@ -21,7 +21,7 @@ ControllerInput input_at(double error_rad, double velocity_rad_s) {
   return input;
 }
 
-/// Its integral holds something.
+/// A law after 200 periods with a constant error, so that its integral is not zero.
 LawInUse running(double temperature_C = 20.0) {
   LawInUse law(kPeriod_s, kCount_rad);
   law.load(testing::shipped_table("c4"));
@@ -41,7 +41,7 @@ TEST(LawInUse, GoesOnFromTheTorqueOfTheTableBeforeAChange) {
   LawInUse other_table = before;
   other_table.load(testing::shipped_table("c3"));
   EXPECT_NEAR(next_torque_Nm(other_table), expected_Nm, 1e-9);
-  // Two changes before a torque: still the torque of the first.
+  // A second change before the next step: the torque still continues from the first table.
   other_table.load(testing::shipped_table("rhs17-6006"));
   EXPECT_NEAR(next_torque_Nm(other_table), expected_Nm, 1e-9);
 }

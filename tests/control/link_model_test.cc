@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two masses against what mechanics says of them: momentum, and the swing of a linear spring, which loses nothing.
+// The two-mass model against mechanics: conservation of momentum, and the undamped oscillation of a linear spring.
 #include "control/joint/link_model.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planned torque on a joint written here: two masses, a linear spring, no friction.
+// The planned torque on an independent model of the joint: two masses, a linear spring, no friction.
 #include "control/trajectory/motor_plan.h"
 
 #include <gtest/gtest.h>
@@ -37,13 +37,13 @@ ReferenceShaper shaper_for(const MotorPlannerConfig& config, double target_rad) 
 }
 
 struct Outcome {
-  double residual_rad = 0.0;  ///< of the link, farthest from the target after the motion
-  double wind_up_rad = 0.0;   ///< largest on the way
+  double residual_rad = 0.0;  ///< largest error of the link in the first periods after the motion
+  double wind_up_rad = 0.0;   ///< largest
   double peak_Nm = 0.0;
-  double motor_error_rad = 0.0;  ///< farthest from the plan
+  double motor_error_rad = 0.0;  ///< largest distance of the motor from the plan during the motion
 };
 
-// Steps the plan under all of the torque.
+// One step of the plan with the whole torque range available.
 MotorPlan step(MotorPlanner& motion, const Reference& planned) {
   return motion.step(planned, {-kLimit_Nm, kLimit_Nm}, 0.0);
 }
@@ -68,7 +68,7 @@ Outcome run(const MotorPlannerConfig& config, const LinkModel& joint, double tar
       link += kPeriod_s / kSubsteps * link_speed;
     }
     outcome.wind_up_rad = std::max(outcome.wind_up_rad, std::abs(motor - link));
-    // A swing; without friction what little speed is left carries it away in the end.
+    // Only the first periods show the swing. Without friction the joint then drifts away with its remaining speed.
     if (!motion.moves() && ++rest_periods < 10)
       outcome.residual_rad = std::max(outcome.residual_rad, std::abs(link - target_rad));
   }
@@ -90,7 +90,7 @@ TEST(MotorPlanner, AJointAsItWasToldFollowsWithinACountAndDoesNotSwing) {
 }
 
 TEST(MotorPlanner, SwingsLessThanTheSameTorqueWithoutIt) {
-  // Nothing but the shaper's acceleration: what is left then is of the wind-up's own size.
+  // The plan for a nearly rigid joint is the shaper's acceleration alone. It leaves a swing as large as the wind-up.
   const MotorPlannerConfig config = config_for(0.089, 10000.0);
   MotorPlannerConfig stiff = config;
   stiff.joint.spring = TorsionSpring::linear(1e7);
@@ -105,8 +105,8 @@ TEST(MotorPlanner, BearsAStiffnessAndALoadThatAreNotWhatItWasTold) {
   }
 }
 
-// The damper's torque takes part in the wind-up: without its change the link would lag behind its motion, and pass its end.
-// As far as a configuration may tell it.
+// The plan includes the damper's torque in the wind-up. Without it the link would lag behind its motion and overshoot.
+// A configuration may contain damping up to 0.5 of critical damping.
 TEST(MotorPlanner, ALinkOnADampedSpringKeepsToItsMotion) {
   for (const double link : {0.089, 0.267})
     for (const double ratio : {0.1, 0.5}) {
@@ -183,7 +183,7 @@ TEST(MotorPlanner, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
     config.joint.spring = find_gear("csf-17-50")->spring;
     config.joint.gravity = {10.0, -0.5};
     MotorPlanner motion(config);
-    ReferenceShaper shaper = shaper_for(config_for(link, 1.0), 0.1);  // as if it weighed nothing
+    ReferenceShaper shaper = shaper_for(config_for(link, 1.0), 0.1);  // ignores gravity
     int periods = 0;
     double farthest_rad = 0.0;
     do {
@@ -197,7 +197,7 @@ TEST(MotorPlanner, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
 TEST(MotorPlanner, AsksForNoMoreThanThereIs) {
   const MotorPlannerConfig config = config_for(0.089, 10000.0);
   MotorPlanner motion(config);
-  ReferenceShaper shaper = shaper_for(config, 1e-3);  // short: the motion itself would take more
+  ReferenceShaper shaper = shaper_for(config, 1e-3);  // so short that the motion alone would need more torque
   double taken_Nm = 5.0;
   for (int k = 0; k < 200; ++k) {
     const MotorPlan plan =

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPeriod_s = 1e-3;
 
-/// x = t^3, for which the mean over w is (t^4 - (t - w)^4) / 4w.
+/// x = t^3. Its mean over the width w is (t^4 - (t - w)^4) / 4w.
 MotionPoint cubic(double t) {
   return {t * t * t, 3.0 * t * t, 6.0 * t, 6.0};
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3;
 constexpr double kLimit_Nm = 1.0;
 
-// A square wave that changes its side every `half_periods`.
+// A square wave that changes its sign every `half_periods`.
 void swing(OscillationDetector& detector, double torque_Nm, int half_periods, int periods) {
   for (int k = 0; k < periods; ++k)
     detector.step((k / half_periods) % 2 == 0 ? torque_Nm : -torque_Nm, 0.0, kLimit_Nm, 1);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3;
 constexpr MotionLimits kLimits{2.0, 8.0, 12.0};
 
-/// A path that keeps kLimits, by taking its time.
+/// A random path, slowed down until it keeps kLimits.
 KnotPath possible_path(std::mt19937& random) {
   std::uniform_real_distribution<double> position(-1.0, 1.0);
   std::uniform_real_distribution<double> velocity(-1.0, 1.0);
@@ -29,7 +29,7 @@ KnotPath possible_path(std::mt19937& random) {
   }
 }
 
-/// Joints on one clock, as the loop has them.
+/// Joints that share one clock, as in the daemon's loop.
 struct Followers {
   std::vector<KnotPath> paths;
   std::vector<PathReader> readers = std::vector<PathReader>(paths.size());
@@ -63,8 +63,8 @@ TEST(PathClock, TakesATenthOfASecondToRestWhereAccelerationsAllowMore) {
   EXPECT_NEAR(periods, 100, 1);
 }
 
-// Three joints, paused and resumed at every instant that a seed brings: between two periods nobody accelerates more than allowed, but for
-// what a period's change of the path's own acceleration is.
+// Three joints, paused and resumed at random instants. No joint accelerates more than allowed from one period to the next, except for
+// 2 %: the path's own acceleration changes within a period.
 TEST(PathClock, PausesAndResumesWithinTheAccelerationsOfEveryJoint) {
   std::mt19937 random(6);
   std::uniform_int_distribution<int> periods(20, 900);
@@ -97,7 +97,7 @@ TEST(PathClock, PausesAndResumesWithinTheAccelerationsOfEveryJoint) {
   }
 }
 
-// However hard the path is, resting comes before it is over, or with it.
+// From every instant the clock comes to rest within half a second, or the path ends before.
 TEST(PathClock, ComesToRestFromEveryInstantOfAPath) {
   std::mt19937 random(7);
   double longest_s = 0.0;
@@ -112,7 +112,7 @@ TEST(PathClock, ComesToRestFromEveryInstantOfAPath) {
       longest_s = std::max(longest_s, periods * kPeriod_s);
     }
   }
-  // On its own a joint stops from full speed in 2 / 12 s.
+  // A joint alone stops from full speed in 2 / 12 s.
   EXPECT_LE(longest_s, 0.5);
 }
 

@@ -24,7 +24,7 @@ bool certain(const StateMatrix& matrix, int size = 3) {
   return test_positive_definite(matrix, StateMatrix::Zero(), size).certain;
 }
 
-// The smallest eigenvalue's sign in long double, from the leading minors: an independent judge near the limit.
+// Positive definiteness from the leading minors in long double: an independent reference near the rounding limit.
 bool positive_in_long_double(const StateMatrix& matrix) {
   using Wide = Eigen::Matrix<long double, 3, 3>;
   const Wide m = matrix.cast<long double>();
@@ -58,7 +58,7 @@ TEST(PositiveDefinite, NeverAcceptsWhatLongDoubleRefusesNearTheRoundingLimit) {
       ASSERT_TRUE(positive_in_long_double(matrix)) << matrix;
     }
   }
-  EXPECT_GT(accepted, 1000);  // and it is not simply refusing everything
+  EXPECT_GT(accepted, 1000);  // the test does not refuse everything
 }
 
 TEST(PositiveDefinite, AcceptsFromAFewHundredUlpsOn) {

@@ -32,7 +32,7 @@ class Cases {
   std::mt19937_64 engine_;
 };
 
-// Continuous-time optimum from rest: a trapezoid or triangle of speed.
+// Continuous-time optimum from rest: a trapezoidal or triangular speed profile.
 double shortest_time_from_rest_s(double distance_rad, const MotionLimits& limits) {
   const double a = limits.acceleration_rad_s2;
   const double d = limits.deceleration_rad_s2;
@@ -41,8 +41,7 @@ double shortest_time_from_rest_s(double distance_rad, const MotionLimits& limits
   return peak / a + peak / d + std::max(0.0, cruise_rad) / peak;
 }
 
-// The same from any velocity: a motion away from the target,
-// or too fast to stop before it, first brakes to rest.
+// The same from any velocity. A motion away from the target, or too fast to stop before it, first brakes to rest.
 double shortest_time_s(double distance_rad, double velocity, const MotionLimits& limits) {
   const double stop_rad = 0.5 * velocity * std::abs(velocity) / limits.deceleration_rad_s2;
   if (velocity < 0.0 || stop_rad > distance_rad)
@@ -124,7 +123,7 @@ TEST(ReferenceShaper, KeepsItsLimitsAndArrivesWhenTheTargetChangesOnTheWay) {
     }
     const double target = cases.target();
     shaper.set_target(target);
-    // The period under way still has the old target.
+    // The current period still has the old target.
     from = {
         from.position_rad + kPeriod_s * (from.velocity_rad_s + 0.5 * kPeriod_s * from.acceleration_rad_s2),
         from.velocity_rad_s + kPeriod_s * from.acceleration_rad_s2, 0.0};
@@ -189,7 +188,7 @@ TEST(ReferenceShaper, SlowsDownWithinTheNewLimitsWhenTheyShrinkOnTheWay) {
   }
 }
 
-// By the target's own acceleration it would brake along with it, and stand where it began.
+// A shaper that copied the target's acceleration would brake with the target and never start.
 TEST(ReferenceShaper, GoesAfterAFarTargetThatBrakesWithAllOfItsAcceleration) {
   constexpr double h = 1e-3;
   constexpr double kLimit_rad_s2 = 30.0;

@@ -30,7 +30,7 @@ ControllerInput input_at(double error_rad, double velocity_rad_s, double limit_N
   return input;
 }
 
-/// V of the state that the last step(input) used: the integral has since grown by one sample.
+/// V of the state that the last step(input) used. Since then the integral has grown by one sample.
 double lyapunov_used(const ScheduledController& controller, const ControllerInput& input) {
   const double error_rad = input.joint_position_rad - input.setpoint_position_rad;
   const StateVector x{controller.integral_rad_s() - table().plant.period_s * error_rad, error_rad,
@@ -143,7 +143,7 @@ TEST(ScheduledController, ALeadAddsWhatTheLawHasChangedByInSoManyPeriods) {
   for (int k = 0; k < 300; ++k) {
     const int periods = elapsed(random);
     const ControllerInput input = input_over(error(random), velocity(random), periods);
-    // What begins anew has no change: at first, and after each of these.
+    // The first sample has no previous one, nor has the first after interrupt() or reset(). There the lead adds nothing.
     const bool anew = k % 50 == 0;
     if (k == 50) led.interrupt();
     if (k >= 100 && anew) {
@@ -171,7 +171,7 @@ TEST(ScheduledController, ALeadFollowsNoJumpOfTheSetpoint) {
   EXPECT_NE(led.step(input_over(2e-3, 0.0)).torque_Nm, law.step(input_over(2e-3, 0.0)).torque_Nm);
 }
 
-// While the law changes: the integral takes nothing of what the lead makes of that.
+// The gain change comes while the law's torque changes. carry_over() must not put the lead's share of the torque into the integral.
 TEST(ScheduledController, AGainChangeWithALeadMakesNoTorqueStepAndTheLeadGoesOn) {
   for (const double lead_before : {2.0, 0.0}) {
     ScheduledController outgoing = leading(lead_before);

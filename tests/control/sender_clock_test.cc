@@ -13,7 +13,7 @@ namespace {
 constexpr double kPeriod_s = 0.001;
 constexpr std::int64_t kEpoch_us = 1'700'000'000'000'000;
 
-/// One every 20 periods on a way that takes `way`: when it is taken to have come, as if the way took what it does most times.
+/// Takes message `i`, sent in period 20 i, after a transport delay of `way` periods. Returns its arrival with the usual delay.
 double taken(SenderClock& clock, int i, double way, std::int64_t set_us = 0) {
   clock.take(kEpoch_us + set_us + 20'000 * i, 20.0 * i + way);
   return clock.sent() + clock.offset();

@@ -21,11 +21,11 @@ const SpringLoop kLoop{1e-3, 1};
 const std::array<GainRow, 1> kGains{GainRow(-310.0, -990.0, -21.0)};
 const SpringBox kBox{{0.0889, 0.0891}, {0.0999, 0.1001}, {9990.0, 10010.0}, {0.5, 0.51}, {0.0, 0.01}};
 
-// sum_k H'^k W H^k of the middle of `box`.
-// Of fixed size, which compiles in a fraction of the time.
+// Matrices of fixed size compile in a fraction of the time.
 using LoopMatrix = Eigen::Matrix<double, 7, 7>;
 using LoopState = Eigen::Matrix<double, 7, 1>;
 
+// sum_k H'^k W H^k for the middle of `box`.
 ProofMatrix lyapunov(const SpringBox& box) {
   const auto middle = [](const BoxRange& range) { return 0.5 * (range.from + range.to); };
   const SpringPlant plant{middle(box.motor_inertia_kgm2), middle(box.link_inertia_kgm2),
@@ -50,7 +50,7 @@ TEST(SpringCertificate, CertifiesASmallBoxByTheLyapunovMatrixOfItsMiddle) {
   EXPECT_GT(report.margin, 0.0);
 }
 
-// A joint whose stiffness, inertias, damping and friction are anything in the box at every sample anew.
+// At each sample the joint takes new random values of stiffness, inertias, damping and friction in the box.
 TEST(SpringCertificate, WhatItCertifiesFallsAlongARandomWalkThroughTheBox) {
   std::mt19937_64 random(11);
   const auto any = [&](const BoxRange& range) {
@@ -70,7 +70,7 @@ TEST(SpringCertificate, WhatItCertifiesFallsAlongARandomWalkThroughTheBox) {
   }
 }
 
-// What lies around a loop costs no more than is said.
+// least_fall() less its error is a lower bound, in the order of matrices, for every loop within the error bounds.
 TEST(SpringCertificate, TheLeastFallIsBelowThatOfEveryLoopWithinTheErrors) {
   std::mt19937_64 random(13);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -108,14 +108,14 @@ TEST(SpringCertificate, RefusesAWiderBoxAndALongerPeriod) {
   EXPECT_FALSE(certify(kGains, kBox, {1e-2, 1}, P).certified);
 }
 
-// With two periods of delay the velocity of two readings excites what it damps with one: no proof could say otherwise.
+// Feedback of the velocity from two readings damps the spring with one period of delay. With two it excites it, so no proof exists.
 TEST(SpringCertificate, TheSecondPeriodOfDelayDrivesAStiffSpringWithoutDamping) {
   const SpringPlant light{0.089, 0.05, 13000.0, 0.0, 0.0};
   EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1}), 1.0);
   EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2}), 1.02);
 }
 
-// What docs/flexible-joint.md says of the corner at which the box of this table is thin.
+// docs/flexible-joint.md states that there is little stability margin beyond this corner of the table's box.
 TEST(SpringCertificate, TheDelaysTableHasLittleBesideItsBoxWhereAStiffSpringIsNotDamped) {
   const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
   const std::vector<GainRow> gains = gains_of(table);

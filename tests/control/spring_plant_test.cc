@@ -27,7 +27,7 @@ BoundedMatrix sampled(const SpringPlant& plant) {
   return spring_exponential(spring_generator(plant, kPeriod_s));
 }
 
-// Motor and link written as they are, not as motor and wind-up, in many small steps (RK4). State: motor, link; angles, speeds.
+// Reference solution in the states of motor and link, in many small steps (RK4). State: angles of motor and link, then their speeds.
 Vector5 integrate(const SpringPlant& p, const Vector5& start) {
   using State = Eigen::Vector4d;
   const double u = start(4);
@@ -114,10 +114,10 @@ TEST(SpringPlant, BetweenItsEndsTheExponentialIsWithinTheInterpolationsError) {
     ASSERT_TRUE((missed.array() <= bound.array() + 1e-15).all());
     nearest = std::max(nearest, missed(3, 2) / bound(3, 2));
   }
-  EXPECT_GT(nearest, 0.5);  // and it is no wider than it must be
+  EXPECT_GT(nearest, 0.5);  // the bound is at most twice as wide as necessary
 }
 
-// The certificate's matrix is the loop that the daemon runs: its reading and its law on the sampled joint.
+// The certificate's loop matrix equals the daemon's loop: JointReading and ScheduledController on the sampled joint.
 TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
   FeedbackGains gains;
   gains.has_integrator = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A streamed sine at every rate, by cycle and by the time of sending, with and without derivatives, and what networks do to it: where a
-// reference is that follows it, and whether it goes on as it was. No more than two samples in a row are lost of those that come no faster
-// than 50 a second.
+// Streams of a sine, with and without derivatives, at several rates through imperfect networks. Samples carry their time of sending or a
+// stamp of their instant. The tests check the error and the smoothness of the reference that follows. At rates up to 50 Hz no more than
+// two samples in a row are lost.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,26 +25,26 @@ constexpr MotionLimits kLimits{6.0, 150.0, 150.0};
 constexpr std::int64_t kSome_us = 1'700'000'000'000'000;
 constexpr double kBridge_s = 0.05;
 constexpr double kDelay_s = 0.03;
-constexpr int kBegin = 2000;  ///< periods, or as much sooner as the network begins
+constexpr int kBegin = 2000;  ///< first judged period; earlier by as much as errors begin before 1 s
 constexpr int kEnd = 7500;
 
 struct Network {
   const char* name = "";
   double lost = 0.0;  ///< share of the samples
   double doubled = 0.0;
-  double swapped = 0.0;  ///< with the next; the older is then too old
-  int pairs = 0;         ///< of so many the first two are lost
-  double gap_s = 0.0;    ///< twice a second
+  double swapped = 0.0;  ///< share swapped with the next sample; the older one is then dropped
+  int pairs = 0;         ///< the first two of so many samples are lost; 0: none
+  double gap_s = 0.0;    ///< loss of all samples, twice a second
   double jitter_s = 0.0;
-  double held_up_s = 0.0;  ///< once a second none comes for so long, and then all at once
-  double from_s = 1.0;     ///< all of it from then on
-  double every_s = 1.003;  ///< a hold-up
-  /// The sender's timer is late: by the amount of a normal distribution of this deviation, and 2 % of the times by up to 20 ms.
+  double held_up_s = 0.0;  ///< delay of all samples, which then arrive at once
+  double from_s = 1.0;     ///< all errors but `doubled` begin here
+  double every_s = 1.003;  ///< time between two hold-ups
+  /// The sender's timer is late by the absolute value of a normal distribution of this deviation, in 2 % of the samples by up to 20 ms.
   double late_s = 0.0;
   double least_Hz = 0.0;  ///< slower streams are not tried
 };
 
-/// Lost, doubled and swapped samples, gaps and hold-ups, on top of what `network` has.
+/// `network` with lost, doubled and swapped samples, gaps and hold-ups in addition.
 Network with_all_of_it(Network network) {
   network.lost = 0.1;
   network.doubled = network.swapped = 0.05;
@@ -54,11 +54,11 @@ Network with_all_of_it(Network network) {
   return network;
 }
 
-/// How a receiver is told which instant a sample is for.
+/// How the receiver learns the instant of a sample: from the time of sending or from a stamp.
 enum class Told { kSent, kStamped };
-constexpr std::int64_t kAhead = 60;  ///< periods that samples are stamped ahead
+constexpr std::int64_t kAhead = 60;  ///< periods by which samples are stamped ahead
 
-/// What arrives: of `of_s` at `at_s`, nothing that is older than what came before.
+/// A sample: arrival, instant and time of sending. arrivals() drops samples that are older than one that arrived before.
 struct Arrival {
   double at_s = 0.0;
   double of_s = 0.0;
@@ -74,7 +74,7 @@ std::vector<Arrival> arrivals(const Network& network, double rate_Hz, bool stamp
   double last_sent_s = -1.0;
   std::normal_distribution<double> normal;
   for (int i = 0; i / rate_Hz < 8.0; ++i) {
-    // A stamp is a whole period, and so is what it is for.
+    // A stamp counts whole periods, so a stamped sample is for a whole period.
     const double of_s = stamped ? kPeriod_s * std::round(i / rate_Hz / kPeriod_s) : i / rate_Hz;
     Arrival one{of_s, of_s, of_s};
     if (network.late_s > 0.0 && of_s > network.from_s) {
@@ -120,8 +120,8 @@ StreamSample sine(double t_s, int derivatives) {
 
 struct Ride {
   double largest_error_rad = 0.0;
-  double rms_acceleration = 0.0;  ///< over the sine's own
-  int ended = 0;                  ///< periods
+  double rms_acceleration = 0.0;  ///< ratio to that of the sine
+  int ended = 0;                  ///< periods in which the stream had ended
 };
 
 double lag_s(const Network& network, Told told) {
@@ -169,7 +169,7 @@ Ride ride(const Network& network, double rate_Hz, int derivatives, Told told, un
   return result;
 }
 
-/// Whether none comes for longer than an interval and, from half an interval later, the bridge. Then the joint comes to rest.
+/// Whether a pause is longer than 1.5 intervals and the bridge. Then the joint comes to rest.
 bool outlasts_bridge(const Network& network, double rate_Hz, unsigned seed) {
   const std::vector<Arrival> arriving = arrivals(network, rate_Hz, false, seed);
   const double interval_s = 1.0 / rate_Hz;
@@ -187,11 +187,11 @@ class StreamBufferNetwork : public ::testing::TestWithParam<Network> {};
 
 TEST_P(StreamBufferNetwork, LeavesASineGoingOnWhereItWas) {
   const Network& network = GetParam();
-  // At 20 Hz two in a row leave 150 ms open, and time and again no three samples in a row: not every draw is as bad as that.
+  // At 20 Hz, two lost samples leave a gap of 150 ms, and often no three samples arrive in a row. Only some random draws are that bad.
   const unsigned draws = network.lost > 0.0 || network.late_s > 0.0 ? 20 : 4;
   for (const int derivatives : {0, 1, 2})
     for (const Told told : {Told::kSent, Told::kStamped}) {
-      // It comes after the instant that it is stamped with.
+      // These delays exceed the 60 ms of the stamps: samples arrive after their instant.
       if (told == Told::kStamped && network.late_s > 0.0 && network.held_up_s > 0.0) continue;
       for (const double rate_Hz : {20.0, 25.0, 1000.0 / 30.0, 50.0, 100.0, 200.0, 1000.0 / 3.0, 500.0}) {
         if (rate_Hz < network.least_Hz) continue;

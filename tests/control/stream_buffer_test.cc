@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion that StreamBuffer makes of samples. What networks do to them: stream_buffer_network_test.cc.
+// The motion that StreamBuffer generates from samples. Effects of the network are in stream_buffer_network_test.cc.
 #include "control/trajectory/stream_buffer.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ StreamSample sine(double t_s, int derivatives) {
           -0.5 * kOmega_rad_s * kOmega_rad_s * std::sin(phase), derivatives};
 }
 
-/// For the period `ahead` from now.
+/// `sample` for the period that is `ahead` periods from now.
 StreamSample stamped(StreamSample sample, std::int64_t ahead) {
   sample.in_periods = ahead;
   return sample;
@@ -127,7 +127,7 @@ TEST(StreamBuffer, LeadsTheLoadAlongALineFromSampleToSample) {
   EXPECT_NEAR(buffer.step().load.inertia_kgm2, 0.2, 1e-9);
 }
 
-// Of a stream of 100 Hz with this velocity: how many samples it takes until the stream is to end; 0: it goes on.
+// Number of samples, at 100 Hz and with velocities from `velocity_of`, until they contradict the positions. 0: they never do.
 template <typename Velocity>
 int samples_until_contradiction(const Velocity& velocity_of, double lost = 0.0) {
   std::mt19937 random(7);
@@ -152,7 +152,7 @@ TEST(StreamBuffer, UsesNoDerivativesThatAreNotAnnounced) {
   }
 }
 
-// The sender stalls and then sends at once what it missed, each stamped with when it was sent.
+// The sender stalls and then sends all missed samples at once, each stamped with its time of sending.
 TEST(StreamBuffer, GoesOnWhereASenderStallsAndCatchesUp) {
   for (const int every : {2, 10, 20, 50})
     for (const int stall : {20, 60, 150, 300}) {
@@ -198,7 +198,7 @@ TEST(StreamBuffer, GoesOnWhereVelocitiesAreALittleOff) {
   EXPECT_EQ(samples_until_contradiction([&](double v) { return v + noise(random); }), 0);
 }
 
-// Positions alone, at rest and in motion: neither what came before a jump nor that it stands afterwards is a motion.
+// Samples of position alone jump, at rest and in motion. The buffer must not extrapolate a velocity from the samples around the jump.
 TEST(StreamBuffer, GoesToANewPlaceAsFastAsTheLimitsAllow) {
   for (const auto& [every, rate_rad_s] :
        {std::pair{2, 0.0}, std::pair{10, 0.0}, std::pair{20, 0.0}, std::pair{2, 0.5}, std::pair{10, 0.5}})

@@ -11,7 +11,7 @@
 namespace strainwave {
 namespace {
 
-/// A bus whose start-up went well.
+/// A bus whose start-up succeeded.
 class QuietBus final : public Fieldbus {
  public:
   std::unique_ptr<Actuator> make_actuator(std::size_t /*slot*/) override { return nullptr; }
@@ -20,7 +20,7 @@ class QuietBus final : public Fieldbus {
   void end_cycle() noexcept override {}
 };
 
-/// Names of this run of the test alone.
+/// A name that only this run of the test has.
 std::string resource() {
   return "test " + std::to_string(::getpid()) + " node 3";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// docs/faults.md against the table of injected faults.
+// Compares docs/faults.md with the table of injected faults.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ std::string trimmed(const std::string& cell) {
   return first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(" `") - first + 1);
 }
 
-/// Rows of all tables under "## title", their two header lines left out.
+/// Rows of all tables under "## title", without their two header lines.
 std::vector<Row> rows_under(const std::string& title) {
   std::istringstream page(read_text_file(kSource / "docs" / "faults.md"));
   std::vector<Row> rows;

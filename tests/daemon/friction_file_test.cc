@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Learned friction as a file: what is written is read again, and nothing else.
+// The file of learned friction: the daemon reads what it has written, and refuses anything else.
 #include "daemon/friction_file.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// That learned friction outlives the daemon, and that no file can keep it from starting.
+// Learned friction survives a restart of the daemon, and no file can prevent the daemon's start.
 #include "daemon/friction_keeper.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,14 @@ class FrictionKeeperTest : public ::testing::Test {
     record.state.friction_age_s = 3600.0;
     return record;
   }
-  /// A daemon's life in which its joint shows these records.
+  /// One run of the daemon, in which its joint publishes these records.
   void live(std::initializer_list<StateRecord> records) {
     FrictionKeeper keeper(folder(), {"elbow"});
     keeper.start();
     for (const StateRecord& record : records) keeper.observe(record, 1);
     keeper.finish();
   }
-  /// What the next life of the daemon begins with.
+  /// The state with which the next run of the daemon begins.
   state_v1 restored(const FuzzyFriction& rules = demo_table().friction) {
     JointBench bench({demo_joint()});
     FrictionKeeper keeper(folder(), {"elbow"});

@@ -17,7 +17,7 @@
 namespace strainwave {
 namespace {
 
-/// What `write` leaves on stderr, logged as under systemd.
+/// The output of `write` on stderr, logged as under systemd.
 template <typename Write>
 std::string logged(const Write& write) {
   const TemporaryFolder temporary;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the service manager hears, from a socket that the test holds in its place.
+// Messages to the service manager, received on a socket that the test provides in its place.
 #include "daemon/service_notifier.h"
 
 #include <gtest/gtest.h>

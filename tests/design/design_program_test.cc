@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Above 300 lines: the commands of one program, as users run them.
-// strainwave-design as its user meets it: exit status, messages, files.
+// strainwave-design as its user sees it: exit status, messages, files.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -25,7 +25,7 @@ class DesignProgram : public ::testing::Test {
   DesignProgram() { std::filesystem::create_directories(folder_); }
   ~DesignProgram() override { std::filesystem::remove_all(folder_); }
 
-  // Exit status; `output_` is what it printed to both streams.
+  // Returns the exit status. `output_` is what the program printed to stdout and stderr.
   int run(const std::string& arguments) {
     const std::string log = (folder_ / "log").string();
     const int status = std::system(
@@ -33,7 +33,7 @@ class DesignProgram : public ::testing::Test {
     output_ = read_text_file(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Of the exponential law in the friction file that was made.
+  /// Decay constant of the exponential law in the new friction file.
   double decay_C() const {
     return friction_file_from_json(read_text_file(file("friction.json")), "made")
         .exponential->law.over_temperature.decay_C;
@@ -79,8 +79,8 @@ TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
   EXPECT_NE(output_.find("must be FROM..TO, ascending"), std::string::npos) << output_;
 }
 
-// With two periods of delay the gains that are asked for are unstable, and those a quarter of a decade stiffer than what is written are refused, with
-// a lead, too.
+// With two periods of delay, the requested torque weight gives an unstable loop, and the program writes softer gains with a lead. A request that is
+// stiffer than the result by a quarter of a decade leads to the same result.
 TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
   const std::string joint =
       "--motor-inertia_kgm2 0.089 --load-inertia_kgm2 0.1 --damping_Nms_rad 1 --delay 2";
@@ -100,7 +100,7 @@ TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
   EXPECT_NEAR(read_gain_table(file("t.json")).primary.weights.torque, weight, 1e-4 * weight);
 }
 
-// At the torque weight of the RHS-17 the gains are too soft for this gear, and no softer ones are certified.
+// At the torque weight of the RHS-17 the gains are too soft for this gear, and no softer gains can be certified.
 TEST_F(DesignProgram, GainsForALargeGearBeginStiff) {
   const std::string design =
       "gains --gear csf-32-50 --motor-inertia_kgm2 2.1 --load-inertia_kgm2 1.2..6.9 --out " + file("t.json");
@@ -111,7 +111,7 @@ TEST_F(DesignProgram, GainsForALargeGearBeginStiff) {
   EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;
 }
 
-// The lightest loads swing up at this delay with gains that hold the others; the range that is named instead has a table.
+// At this delay, gains that control the heavier loads make the lightest ones oscillate. The suggested narrower range has a certified table.
 TEST_F(DesignProgram, GainsForTooWideARangeNameANarrowerOne) {
   const std::string design = "gains --gear csf-17-50 --motor-inertia_kgm2 0.0873..0.0907 --delay 2 --out " +
                              file("t.json") + " --load-inertia_kgm2 ";
@@ -125,7 +125,7 @@ TEST_F(DesignProgram, GainsForTooWideARangeNameANarrowerOne) {
   EXPECT_EQ(run(design + range), 0) << range << output_;
 }
 
-// Without damping, as nobody asked for any; the shipped table has the same gains, and their proof with damping.
+// The request has no damping. The shipped table has the same gains, but its proof includes damping.
 TEST_F(DesignProgram, GainsForLinksOf50To300GramsAtBothDelaysAreCertifiedWithALead) {
   ASSERT_EQ(run("gains --gear csf-17-50 --load-inertia_kgm2 0.05..0.3 --delay 1..2 --out " + file("t.json")),
             0)
@@ -297,7 +297,7 @@ TEST_F(DesignProgram, FitNamesTwoTemperaturesThatHideEachOtherAndFrictionThatRis
 
 TEST_F(DesignProgram, RulesOfFewTemperaturesFollowTheLaw) {
   for (const int count : {3, 5}) {
-    // The exponential law itself.
+    // These data follow the exponential law exactly.
     std::string csv = "temperature_C,viscous_Ncm_per_rpm,coulomb_Ncm,static_Ncm\n";
     const auto law = [](double temperature_C) { return std::exp(-(temperature_C + 10.0) / 14.0); };
     for (int i = 0; i < count; ++i) {
@@ -350,7 +350,7 @@ TEST_F(DesignProgram, FitRefusesWhatIsNoCatalogue) {
     EXPECT_NE(output_.find(mentions), std::string::npos) << mentions << "\n" << output_;
     EXPECT_FALSE(std::filesystem::exists(file("friction.json"))) << csv;
   }
-  // A byte order mark is none of the data.
+  // A byte order mark is not part of the data.
   write_text_file(file("bom.csv"),
                   "\xEF\xBB\xBF" + running + "-10,11.5,28,7.6\n15,3.2,7.2,3.4\n40,1.8,3.2,3\n");
   EXPECT_EQ(run("fit " + file("bom.csv") + " --out " + file("friction.json")), 0) << output_;

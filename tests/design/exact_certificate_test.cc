@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Both checkers of a table say the same: on the shipped tables, and on tables that are changed until a proof just fails.
+// Both checkers of a table agree on the shipped tables and on tables that are changed until a proof just fails.
 #include "design/exact/exact_certificate.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ GainTable table_of(const char* name) {
   return read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + name);
 }
 
-// exp of a rotation by 1 rad has the cosine and sine of 1, and the enclosure is narrow.
+// The exponential of a rotation by 1 rad contains cos 1 and sin 1, and the enclosure is narrow.
 TEST(RationalMatrix, ExponentialEnclosesARotation) {
   RationalMatrix M(2, 2);
   M(0, 1) = -1;
@@ -33,7 +33,7 @@ TEST(RationalMatrix, ExponentialEnclosesARotation) {
   const Enclosure rotation = exponential(M, {1, 1});
   EXPECT_DOUBLE_EQ(rotation.value(0, 0).get_d(), std::cos(1.0));
   EXPECT_DOUBLE_EQ(rotation.value(1, 0).get_d(), std::sin(1.0));
-  // The rows of a rotation have length 1: within the enclosure, though not exactly.
+  // The rows of a rotation have length 1 within the enclosure, though not exactly.
   const mpq_class length =
       rotation.value(0, 0) * rotation.value(0, 0) + rotation.value(0, 1) * rotation.value(0, 1);
   EXPECT_LT(abs(length - 1), 4 * rotation.radius(0, 0));
@@ -41,7 +41,7 @@ TEST(RationalMatrix, ExponentialEnclosesARotation) {
   EXPECT_THROW(exponential(mpq_class(100) * M, {1, 1}), std::domain_error);
 }
 
-// The chord of exp(h w) is above it by at most h^2 w^2 exp / 8; the bound holds, and is reached by short chords.
+// The chord lies above exp(h w) by at most h^2 w^2 exp / 8. The bound holds, and short chords reach it.
 TEST(RationalMatrix, InterpolationBoundHoldsAndIsTight) {
   for (const double width : {0.5, 0.01}) {
     RationalMatrix size(1, 1);
@@ -57,7 +57,7 @@ TEST(RationalMatrix, InterpolationBoundHoldsAndIsTight) {
   }
 }
 
-// No rounding: a singular matrix is not definite, and one that is larger by 2^-1000 is.
+// There is no rounding: a singular matrix is not definite, and a matrix that is larger by 2^-1000 is.
 TEST(RationalMatrix, DefinitenessIsExact) {
   RationalMatrix a(2, 2);
   a(0, 0) = 1;
@@ -70,7 +70,7 @@ TEST(RationalMatrix, DefinitenessIsExact) {
   EXPECT_FALSE(is_positive_definite(a));
 }
 
-// What falls() accepts falls for every matrix within the bounds: at those corners of the bounds that a random sign chooses.
+// If falls() accepts an enclosure, V falls for every matrix within it. The test tries corners with random signs.
 TEST(LeastFall, HoldsForEveryMatrixWithinTheBounds) {
   std::mt19937_64 random(5);
   std::uniform_int_distribution<int> entry(-40, 40);
@@ -105,7 +105,7 @@ TEST(ExactCertificate, ProvesShippedTables) {
   }
 }
 
-/// A cell of a shipped table by itself, with three gains: what is left is proved in a tenth of a second.
+/// One cell of a shipped table, with three gains. Its proof takes a tenth of a second.
 GainTable one_cell(const char* name, std::size_t cell) {
   GainTable table = table_of(name);
   CertifiedBox& box = table.box;
@@ -125,7 +125,7 @@ GainTable one_cell(const char* name, std::size_t cell) {
   return table;
 }
 
-/// One direction in which a table is changed, by any `amount`: 0 leaves it as it is.
+/// One way to change a table. An `amount` of 0 leaves the table unchanged.
 struct Change {
   int kind = 0;
   std::size_t place = 0;
@@ -160,7 +160,7 @@ struct Change {
         table.box.damping_Nms_rad.to *= 1.0 + amount;
         table.friction.rules[0].friction.viscous_Nms_rad *= 1.0 + amount;
         break;
-      default:  // the motor
+      default:  // the motor's inertia
         (sign > 0.0 ? table.box.motor_inertia_kgm2.to : table.box.motor_inertia_kgm2.from) *= factor;
         table.plant.inertia_kgm2 *= factor;
         break;
@@ -174,7 +174,7 @@ bool first_accepts(const GainTable& table) {
   return certify_box(table).certified;
 }
 
-/// Up to where the first checker accepts a table that is changed so, within a part in 2^30; or nothing.
+/// Returns the largest amount of this change that the first checker accepts, within a part in 2^30. Returns nothing if it accepts 0.9.
 std::optional<double> edge_of(const GainTable& table, const Change& change) {
   double accepted = 0.0;
   double refused = 0.9;
@@ -186,8 +186,8 @@ std::optional<double> edge_of(const GainTable& table, const Change& change) {
   return accepted;
 }
 
-/// Judges changed tables on both sides of the edge: no joint of the box on which V does not fall may pass the first checker. Prints the counts.
-/// `usual` tables, or as many as the environment says: the whole of 10,000 takes minutes.
+/// Judges changed tables on both sides of the edge and prints the counts. The first checker must refuse a table if V does not fall on some joint of
+/// the box. Judges `usual` tables, or $STRAINWAVE_MUTATED_TABLES of them: 10,000 take minutes.
 void compare(std::span<const GainTable> sound, int usual) {
   const char* const wanted = std::getenv("STRAINWAVE_MUTATED_TABLES");
   const int tables = wanted != nullptr ? std::atoi(wanted) : usual;
@@ -208,7 +208,7 @@ void compare(std::span<const GainTable> sound, int usual) {
       const ExactReport exact = certify_exactly(changed);
       ++judged;
       ++count.at(exact.certified ? 1 : 0).at(first ? 1 : 0);
-      // Between corners it may miss the proof; at a joint it may not.
+      // The exact checker may miss a proof between the corners, but not at a joint.
       const bool missed = exact.refusal.find("no proof between") != std::string::npos;
       undecided += first && missed ? 1 : 0;
       EXPECT_FALSE(first && !exact.certified && !missed)
@@ -225,7 +225,7 @@ void compare(std::span<const GainTable> sound, int usual) {
 
 TEST(ExactCertificate, AgreesWithTheFirstCheckerOnChangedRigidTables) {
   const std::array<GainTable, 2> sound{table_of("rhs17-6006.json"), table_of("total-0.356/c2.json")};
-  compare(sound, 56);  // each kind of change in each table, on both sides of two edges
+  compare(sound, 56);  // each kind of change to each table, on both sides of two edges
 }
 
 TEST(ExactCertificate, AgreesWithTheFirstCheckerOnChangedCells) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prose of a program's file: comments of headers and message types, docstrings and literals, each of at least SHORTEST words.
 
-Adjacent literals are one text; what stands between two by + or << is one word, as is a placeholder. Comments of other files are left out."""
+Adjacent literals are one text. An expression between two literals, joined by + or <<, counts as one word, as does a placeholder. Comments of other files are left out."""
 import pathlib
 import re
 
@@ -15,18 +15,18 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include.*$', re.MULTILINE)
 
 
 def comments(text):
-    """(line, text) of each paragraph: comments of consecutive lines, apart at an empty or indented line (a formula) or a bullet."""
+    """Yields (line, text) of each paragraph: consecutive comment lines, split at an empty or indented line (a formula) or a bullet."""
     block, last, beside = [], -1, False
     for token in TOKEN.finditer(text):
         if not token['comment']:
             continue
         line = text[:token.start()].count('\n') + 1
-        begin = bool(text[text.rfind('\n', 0, token.start()) + 1:token.start()].strip())  # code stands before it
+        begin = bool(text[text.rfind('\n', 0, token.start()) + 1:token.start()].strip())  # code stands before the comment
         for number, raw in enumerate(token['comment'].splitlines(), line):
             said = re.sub(r'^\s*(?:/\*+|///?<?|\*(?!/))|\*/\s*$', '', raw)
             formula = bool(re.match(r'\s{2,}\S', said))
             item = re.match(r'\s*(?:[-*]|\d+[.)])\s', said)
-            new = begin or beside and not raw.lstrip().startswith('///<')  # another member than the one that the last line is beside
+            new = begin or beside and not raw.lstrip().startswith('///<')  # the comment of another member
             if block and (number != last + 1 or not said.strip() or formula or item or new):
                 yield block[0][0], '\n'.join(part for _, part in block)
                 block = []
@@ -44,7 +44,7 @@ def unescaped(literal):
 
 
 def literals(text, pattern):
-    """(line, text) of each literal, adjacent ones joined."""
+    """Yields (line, text) of each literal, with adjacent literals joined."""
     joined, begin, end = None, 0, 0
     for token in pattern.finditer(text):
         groups = token.groupdict()
@@ -64,7 +64,7 @@ def literals(text, pattern):
 
 
 def texts(path):
-    """(line, text) of each paragraph of prose in the file."""
+    """Yields (line, text) of each paragraph of prose in the file."""
     text = INCLUDE.sub('', pathlib.Path(path).read_text(encoding='utf-8'))
     suffix = pathlib.Path(path).suffix
     if suffix in ('.h', '.lcm'):
@@ -74,7 +74,7 @@ def texts(path):
     python = suffix == '.py' or text.startswith('#!/usr/bin/env python')
     pattern = TOKEN if suffix in ('.h', '.cc') else PYTHON if python else SHELL
     for line, literal in literals(text, pattern):
-        # In Python a paragraph ends with an empty line or before an argument, "name: what it is".
+        # In Python an empty line or an argument, "name: meaning", ends a paragraph.
         for part in re.finditer(r'(?:[^\n]|\n(?!\s*\n|\s*[\w(), ]{1,20}: ))+' if python else r'[^\n]+', literal):
             if len(part[0].split()) >= SHORTEST:
                 yield line + (literal[:part.start()].count('\n') if python else 0), part[0]

@@ -12,7 +12,7 @@ class Dice {
   double between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  /// Less by a factor of 1 / high to 1 / low, or more by one of low to high.
+  /// A factor of 1 / high to 1 / low or of low to high, each with probability 0.5.
   double off(double low, double high) {
     const double factor = between(low, high);
     return between(0.0, 1.0) < 0.5 ? factor : 1.0 / factor;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// doctor_study [JOINTS [HEALTHY [FIRST [STRIDE [CAUSE]]]]]: the doctor on joints with each cause, numbered from FIRST, and on healthy
-// ones, as tables; what went wrong on the standard error. STRIDE: every so many periods are published; a CAUSE alone is shown in full.
+// doctor_study [JOINTS [HEALTHY [FIRST [STRIDE [CAUSE]]]]]: the doctor on JOINTS joints with each cause, numbered from FIRST, and on HEALTHY
+// healthy ones. Prints tables, and wrong diagnoses on the standard error. Publishes one of STRIDE periods. CAUSE: that cause alone, in full.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -58,7 +58,7 @@ struct Examined {
   double duration_s = 0.0;
 };
 
-/// Healthy where `cause` is empty.
+/// An empty `cause` is a healthy joint.
 Examined examine_one(const std::string& cause, int index, const Study& study) {
   Examined examined;
   const Evidence evidence = examine(random_patient(cause, index), study.stride, examined.duration_s);
@@ -74,7 +74,7 @@ Examined examine_one(const std::string& cause, int index, const Study& study) {
   return examined;
 }
 
-/// How many are right, and the longest test.
+/// Number of right diagnoses, and duration of the longest test.
 std::pair<int, double> examine_all(const std::string& cause, int count, const Study& study) {
   std::vector<Examined> all(static_cast<std::size_t>(count));
   run_in_parallel(all.size(), [&](std::size_t i) {

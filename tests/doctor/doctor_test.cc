@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The doctor on motions whose numbers are known, and on random joints: three for each cause, of the study's.
+// The doctor on motions with known numbers, and on three random joints of the study for each cause.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Truth {
   int delay_periods = 2;
 };
 
-/// Strokes of a rigid joint, written down from their formula: q = sum of two sines, torque so many periods before it acts.
+/// Strokes of a rigid joint by formula: q is the sum of two sines, and the torque leads its effect by `delay_periods`.
 Evidence swinging(const Truth& truth, std::int64_t stride) {
   Evidence evidence;
   const double period_s = evidence.period_s;
@@ -84,7 +84,7 @@ TEST(Doctor, NamesNoRealTimeOnlyWhereTheDaemonFaultedForIt) {
   timing_v1 timing{};
   timing.cycles = 12'000;
   timing.overruns = 100;
-  evidence.timings.push_back(timing);  // of a desktop: real time refused, cycles late
+  evidence.timings.push_back(timing);  // a desktop: no real time, late cycles
   EXPECT_TRUE(diagnose(evidence).findings.empty());
   evidence.samples.back().fault = static_cast<std::int32_t>(Fault::kPeriodsMissed);
   const Diagnosis diagnosis = diagnose(evidence);
@@ -92,7 +92,7 @@ TEST(Doctor, NamesNoRealTimeOnlyWhereTheDaemonFaultedForIt) {
   EXPECT_EQ(diagnosis.findings.front().cause, "no real time");
 }
 
-/// What diagnose() names of a healthy joint whose sender's clock is `ahead_s` of the loop's after so many cycles.
+/// Causes that diagnose() names for a healthy joint. The sender's clock leads the loop's by `ahead_s` of the cycle.
 std::string named_with_clock(const std::function<double(std::int64_t)>& ahead_s) {
   Evidence evidence = swinging({}, 1);
   for (DoctorSample& sample : evidence.samples)
@@ -150,8 +150,8 @@ TEST(MotionFit, FindsTheSpringUnderALoadAndAnUnevenGear) {
   }
 }
 
-// Twice the ratio makes the feedback four times as stiff. By half a turn of its oscillation and the other sign, the motion of 2006 is
-// explained a little better.
+// Twice the ratio makes the feedback four times as stiff. The wrong sign, with a shift by half a period of the oscillation, explains the
+// motion of joint 2006 slightly better.
 TEST(Doctor, NamesTheRatioOfARigidJointThatOscillatesForIt) {
   for (const int i : {302, 326, 2006}) {
     double seconds = 0.0;
@@ -183,7 +183,7 @@ TEST(TestMotion, StaysWithinLimitsAndReachAndComesBack) {
   EXPECT_TRUE(plan_test_motion(limits, -0.18, 0.5).empty());
 }
 
-// The whole study is doctor_study: 10 joints a cause.
+// The complete study, with 10 joints for each cause, is doctor_study.
 TEST(DoctorStudy, NamesNineOfTenCausesFirst) {
   constexpr int kJoints = 3;
   int named = 0;

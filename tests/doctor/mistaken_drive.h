@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive that is not what its configuration says: holds a simulated drive and falsifies what passes through. For tests of the doctor.
+// A drive that differs from its configuration: it falsifies the commands and readings of a simulated drive. For tests of the doctor.
 #pragma once
 
 #include <cmath>
@@ -11,19 +11,19 @@
 
 namespace strainwave::testing {
 
-/// What is wrong; as it stands here, nothing.
+/// The differences. The defaults are none.
 struct Mistakes {
-  double torque_scale = 1.0;    ///< acting torque over the commanded
-  double position_scale = 1.0;  ///< reported position over the true
+  double torque_scale = 1.0;    ///< ratio of the acting torque to the commanded
+  double position_scale = 1.0;  ///< ratio of the reported position to the true
   double temperature_offset_C = 0.0;
   bool temperature_open = false;    ///< the sensor shows -200 degC
-  double slip_above_Nm = 1e9;       ///< the link slips where more is commanded
-  double slip_rad_s = 0.0;          ///< so fast, against the torque
-  double lose_above_rad_s = 1e9;    ///< faster, counts are lost
-  double lost_share = 0.0;          ///< of the motion there
-  bool drive_finds_losses = false;  ///< it reports the first loss as a fault
-  double missed_share = 0.0;        ///< of the readings
-  double late_share = 0.0;          ///< likewise, a period late
+  double slip_above_Nm = 1e9;       ///< commanded torque above which the link slips
+  double slip_rad_s = 0.0;          ///< speed of the slip, against the torque
+  double lose_above_rad_s = 1e9;    ///< speed above which counts are lost
+  double lost_share = 0.0;          ///< share of the motion that is lost there
+  bool drive_finds_losses = false;  ///< the drive reports a loss as a fault
+  double missed_share = 0.0;        ///< share of the readings that are missing
+  double late_share = 0.0;          ///< share of the readings that are a period late
 };
 
 class MistakenDrive final : public Actuator {

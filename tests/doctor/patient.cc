@@ -107,7 +107,7 @@ void make_ill(const std::string& cause, int index, Dice& dice, Patient& patient)
   if (cause == "electrical noise")
     patient.faults.push_back({InjectedFault::kSensorNoisy, 0.0, 0.0, dice.between(8e-5, 2e-4)});
   if (cause == "no real time") {
-    // Many short stalls, or few that are longer than stall_limit_s.
+    // Many short stalls, or a few that may be longer than stall_limit_s.
     patient.stall_share = index % 2 == 0 ? dice.between(0.1, 0.2) : dice.between(0.0005, 0.001);
     patient.stall_periods = index % 2 == 0 ? 3 : 60;
   }
@@ -122,7 +122,7 @@ void make_ill(const std::string& cause, int index, Dice& dice, Patient& patient)
   }
 }
 
-/// One joint's loop with its drive, a period at a time.
+/// The daemon's loop of one joint with its drive. Each step() is one cycle.
 class Bed {
  public:
   explicit Bed(const Patient& patient) : patient_(patient), random_(patient.seed + 7U) {
@@ -189,7 +189,7 @@ limits_v1 limits_of(const Patient& patient) {
   return limits;
 }
 
-/// Runs the bed and writes down what the daemon would publish.
+/// Runs the bed and records the messages that the daemon would publish.
 class Examination {
  public:
   Examination(const Patient& patient, std::int64_t stride)
@@ -279,7 +279,7 @@ Patient random_patient(const std::string& cause, int index) {
                  link->damping_Nms_rad,
                  false,
                  kUsualLostMotion * gear().lost_motion_rad};
-  // Half of the daemons run on a desktop, as a newcomer's does.
+  // Half of the daemons run on a desktop without real time, as a newcomer's does.
   patient.real_time = index % 4 >= 2;
   if (!patient.real_time) patient.stall_share = 0.002;
   make_ill(cause, index, dice, patient);

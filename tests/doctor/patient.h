@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random joints, healthy or with one cause of trouble, and what the doctor's test motion records of them in virtual time.
+// Random joints, healthy or with one cause of trouble, and the record of the doctor's test motion in virtual time.
 #pragma once
 
 #include <string>
@@ -21,19 +21,19 @@ struct Patient {
   ConfiguredJoint told;
   const GainTable* table = nullptr;
   unsigned seed = 0;
-  // Of the daemon around it.
-  double stall_share = 0.0;        ///< of the cycles, after which periods are left out
-  std::int64_t stall_periods = 3;  ///< at most, evenly from one on
+  // Errors of the daemon around the joint.
+  double stall_share = 0.0;        ///< share of the cycles that come late by a stall
+  std::int64_t stall_periods = 3;  ///< most periods that a stall leaves out; uniform from 1
   bool real_time = true;
-  double clock_rate = 0.0;    ///< of the sender's clock, share
-  double clock_jump_s = 0.0;  ///< in the middle
+  double clock_rate = 0.0;    ///< relative rate error of the sender's clock
+  double clock_jump_s = 0.0;  ///< jump of that clock after 8 s
 };
 
-/// The joint number `index`: rigid and flexible ones, -5 to 40 degC, friction within 15 % of the table's, with torque ripple, hysteresis
-/// and heat. `cause`: of causes(), or empty for a healthy one.
+/// Joint number `index`, rigid or flexible, at -5 to 40 degC. Friction is within 15 % of the table's; torque ripple, hysteresis and heating
+/// are simulated. `cause`: one of causes(), or empty for a healthy joint.
 Patient random_patient(const std::string& cause, int index);
 
-/// Brings it to hold and through the test motion, or to the fault that ends it. `seconds`: of joint time.
+/// Enables the joint and runs the test motion, unless a fault ends it. `seconds`: duration in joint time.
 Evidence examine(const Patient& patient, std::int64_t stride_periods, double& seconds);
 
 }  // namespace strainwave::testing

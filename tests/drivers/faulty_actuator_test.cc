@@ -14,7 +14,7 @@ void burn(std::int64_t duration_ns) noexcept {
   burned_ns += duration_ns;
 }
 
-/// Moves by one unit a period and obeys.
+/// An actuator that moves by one unit a period and obeys every order.
 class Moving final : public Actuator {
  public:
   ActuatorReading read(std::int64_t) noexcept override {

@@ -26,7 +26,7 @@ std::int64_t virtual_clock() noexcept {
   return now_ns.load();
 }
 
-/// Waits for the other thread; a test that would wait for ever fails.
+/// Waits for the other thread, for at most about 20 s, so that a test cannot hang.
 bool eventually(const std::function<bool()>& condition) {
   for (int i = 0; i < 20000; ++i) {
     if (condition()) return true;
@@ -65,7 +65,7 @@ class TemperatureFileTest : public ::testing::Test {
     config_ = {
         folder_.path() / "temp1_input", TemperatureFileKind::kNumber, 0.001, 0.0, 0.001, &virtual_clock};
   }
-  // In one step: the thread never meets half a file.
+  // Replaces the file in one step, so that the thread never reads a partial file.
   void write(const std::string& text) const {
     const std::filesystem::path next = folder_.path() / "next";
     std::ofstream(next) << text;
@@ -156,7 +156,7 @@ TEST_F(TemperatureFileTest, RefusesImpossibleNumbers) {
 }
 
 TEST_F(TemperatureFileTest, NeverShowsHalfAValueNorAllocatesInTheLoop) {
-  // Value and time are written as one pair: n degC at n seconds.
+  // The test writes n degC at n seconds, so that value and time must match.
   now_ns = 1'000'000'000;
   write("1000\n");
   config_.period_s = 1e-6;

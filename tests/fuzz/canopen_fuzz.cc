@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Heartbeats, emergencies, error frames and their texts: a decoder takes exactly the standard's sizes and
-// nothing else.
+// Heartbeats, emergencies, error frames and their texts: a decoder accepts only the sizes of the standard.
 #include "drivers/can/canopen/canopen.h"
 
 #include "drivers/can/can_detail.h"

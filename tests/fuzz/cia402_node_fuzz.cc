@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A CiA 402 drive that was set up in order and then sends anything.
+// A CiA 402 drive that sends arbitrary frames after a correct set-up.
 #include "drivers/can/cia402/cia402_node.h"
 
 #include "sim/joint/reference_plant.h"

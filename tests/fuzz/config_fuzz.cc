@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a configuration holds, it is read or refused with an InputError.
+// Any configuration is read, or refused with an InputError.
 #include "base/input_error.h"
 #include "daemon/config/config.h"
 #include "tests/fuzz/fuzz_file.h"

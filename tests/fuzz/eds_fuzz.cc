@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a data sheet holds, it is read or refused with an InputError, and start-up against it ends.
+// Any electronic data sheet is read, or refused with an InputError. The simulated start-up of a drive with it always ends.
 #include <string_view>
 
 #include "base/input_error.h"

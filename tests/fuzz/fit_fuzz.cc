@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a catalogue or a file of fitted friction holds: it is refused, or is fitted with finite numbers; a file of a fit is the same
-// after it was written and read again.
+// Any catalogue is refused, or fitted with finite numbers. Any file of fitted friction is refused, or is the same after it is written and
+// read again.
 #include <algorithm>
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fuzzer's bytes as a file, for readers that take a path. It lies in memory and is written anew for each input.
+// A fuzzer's bytes as a file in memory, for readers that take a path. Each input overwrites it.
 #pragma once
 
 #include <sys/mman.h>

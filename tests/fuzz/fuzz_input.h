@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a fuzzer's bytes mean to the harnesses: numbers and CAN frames, taken from the front. Beyond the end: zeros.
+// Reads numbers and CAN frames from the front of a fuzzer's bytes. After their end it reads zeros.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class FuzzInput {
     for (std::size_t i = 0; i < bytes; ++i) value |= std::uint64_t{byte()} << (8U * i);
     return value;
   }
-  /// A length byte (0..8), then that many bytes.
+  /// A length byte, taken modulo 9, then that many bytes.
   CanFrame frame(std::uint32_t id) {
     CanFrame frame;
     frame.id = id;
@@ -41,7 +41,7 @@ class FuzzInput {
   std::span<const std::uint8_t> rest_;
 };
 
-/// Ends the process: a property that must hold for every input did not.
+/// Ends the process, because a property that must hold for every input does not.
 [[noreturn]] inline void fail(const char* condition, const char* file, int line) {
   std::fprintf(stderr, "%s:%d: not for every input: %s\n", file, line, condition);
   std::abort();
@@ -51,5 +51,5 @@ class FuzzInput {
 
 }  // namespace strainwave::fuzz
 
-/// Defined once in every harness; the fuzzer calls it, or the test that replays the corpus.
+/// Every harness defines it. The fuzzer calls it, or the test that replays the corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a file of keys holds: what is read is the same key when it is written and read again.
+// Any key that is read from a file is the same after it is written and read again.
 #include "base/input_error.h"
 #include "client/protocol/key_file.h"
 #include "daemon/admission/authorized_keys.h"

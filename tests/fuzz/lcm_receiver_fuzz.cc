@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever datagrams come, from whomever: nothing is delivered that its own sender did not send, byte by byte, and nothing
-// longer than allowed. Datagrams are raw, or fragments whose fields are near to each other, so that they meet.
+// The receiver delivers only messages whose every byte their own sender sent, and none longer than allowed. Datagrams are raw bytes, or
+// fragments with similar fields, so that they often belong together.
 #include <array>
 #include <vector>
 
@@ -41,7 +41,7 @@ Bytes short_message(FuzzInput& input) {
   return datagram;
 }
 
-// Offsets are mostly where the fragments of a sound message have them: all parts as long as the first but the last.
+// Most offsets are those of a valid message: all parts but the last are as long as the first.
 Bytes fragment(FuzzInput& input) {
   Bytes datagram;
   const std::uint8_t shape = input.byte();
@@ -72,7 +72,7 @@ Bytes next_datagram(FuzzInput& input) {
   }
 }
 
-// Whether `from` sent a fragment of the message of `last` with this byte at this place.
+// Whether the sender of `last` sent a fragment of the same message with this byte at this place.
 bool was_sent(const std::vector<Sent>& sent, const Sent& last, std::size_t at, std::uint8_t byte) {
   const LcmDatagram of = parse_lcm_datagram(last.datagram);
   for (const Sent& candidate : sent) {

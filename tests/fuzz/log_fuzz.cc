@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever an event log holds, each of its bytes is read as one event's or skipped, and what is ours becomes CSV and JSON.
+// Each byte of any event log belongs to one event or is skipped. Strainwave's messages become CSV and JSON.
 #include <strainwave/state_v1.hpp>
 
 #include "base/input_error.h"
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     STRAINWAVE_FUZZ_CHECK(reader.truncated() ? told < size : told == size);
     STRAINWAVE_FUZZ_CHECK((reader.damage().places > 0) == (reader.damage().skipped_bytes > 0));
   } catch (const InputError&) {
-    // No event in it.
+    // The log has no event.
   }
   return 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a drive's node through periods that the fuzzer's bytes fill with frames, orders and calls, and checks
-// what must hold whatever the bus carries: finite readings, only its own identifiers, no torque after a fault.
+// Runs a drive's node through periods that the fuzzer's bytes fill with frames, orders and calls. Checks that readings are finite, that the
+// node sends only its own identifiers, and that it orders no torque after a fault.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class CheckedBus final : public CanTransmitter {
   }
   bool send(const CanFrame& frame) noexcept override {
     STRAINWAVE_FUZZ_CHECK(frame.size <= kMaxCanBytes);
-    // The last resort: network management, and a request by SDO.
+    // A node may always send network management and SDO requests, its last resort.
     if (frame.id == 0 || (frame.id & ~0x7FU) == 0x600) return takes_frames_;
     STRAINWAVE_FUZZ_CHECK(std::find(ids_.begin(), ids_.end(), frame.id) != ids_.end());
     if (fault_) STRAINWAVE_FUZZ_CHECK(!has_torque_(frame));
@@ -54,7 +54,7 @@ inline void run_cycles(CanNode& node, FuzzInput& input, std::int64_t now_ns,
   const std::vector<std::uint32_t> ids = node.receive_ids();
   while (!input.empty()) {
     const std::uint8_t order = input.byte();
-    // Now and then a long pause, for the time-outs.
+    // Some pauses are long, for the time-outs.
     now_ns += kPeriod_ns * ((order & 0x80U) != 0 ? 1 + input.byte() : 1);
     node.begin_cycle(now_ns);
     for (unsigned frames = order & 0x03U; frames > 0; --frames)
@@ -65,7 +65,7 @@ inline void run_cycles(CanNode& node, FuzzInput& input, std::int64_t now_ns,
     if ((order & 0x10U) != 0) node.stop();
     if ((order & 0x20U) != 0) node.clear_fault();
     const bool fault = reading.fault != ActuatorFault::kNone && (order & 0x20U) == 0;
-    // The loop never enables a joint in the period in which it is told of a fault.
+    // The loop never enables a joint in the period in which the node reports a fault.
     const bool enable = (order & 0x04U) != 0 && !fault;
     node.write({static_cast<double>(static_cast<std::int8_t>(input.byte())), enable});
     bus.begin(fault, (order & 0x08U) == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ODrive's frames: what a decoder lets through has the right size and finite numbers.
+// ODrive's frames: a decoder accepts only the right size and finite numbers.
 #include "drivers/can/odrive/odrive.h"
 
 #include <cmath>

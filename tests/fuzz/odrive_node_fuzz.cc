@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An ODrive axis that was set up in order and then sends anything.
+// An ODrive axis that sends arbitrary frames after a correct set-up.
 #include "drivers/can/odrive/odrive_node.h"
 
 #include "sim/joint/reference_plant.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a flight record holds, it is drawn and becomes MCAP, or is refused with an InputError.
+// Any flight record is drawn and converted to MCAP, or refused with an InputError.
 #include "base/input_error.h"
 #include "client/text/flight_record.h"
 #include "client/text/mcap_flight.h"

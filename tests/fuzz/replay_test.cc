@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs one fuzz harness over its kept corpus: what a fuzzer once found stays found, without a fuzzer.
+// Runs one fuzz harness over its corpus, which keeps the findings of the fuzzer, without a fuzzer.
 #include <gtest/gtest.h>
 
 #include <filesystem>

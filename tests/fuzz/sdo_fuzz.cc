@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever answers a drive gives, an SDO transfer ends within bounds and only sends well-formed requests.
+// With any answers of a drive, an SDO transfer ends within bounds and sends only well-formed requests.
 #include <vector>
 
 #include "drivers/can/canopen/canopen_sdo.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a gain table holds, as JSON or as a message: it is refused, or is the same table after it was written and read again.
+// Any gain table, as JSON or as a message, is refused, or is the same after it is written and read again.
 #include <span>
 #include <string>
 #include <string_view>

@@ -84,7 +84,7 @@ TEST_F(EventLogTest, PassesOverOneDamagedPlaceAndSaysHowMuchAndWhere) {
   for (int i = 0; i < 5; ++i) log.add_bytes(i, "SW.elbow.STATE", {1, 2, 3, static_cast<std::uint8_t>(i)});
   const std::string whole = bytes();
   ASSERT_EQ(whole.size(), 5 * event_bytes);
-  // Each byte in turn: no event but the one that it belongs to is lost.
+  // Damages each byte in turn. Only the event with that byte may be lost.
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x15);
@@ -104,7 +104,7 @@ TEST_F(EventLogTest, FindsTheEventsBehindWhatIsNoLog) {
   testing::EventLogFile(path_).add_bytes(1, "SW.elbow.STATE", {1, 2, 3, 4});
   const std::string event = bytes();
   std::string junk(5000, 'x');
-  junk.replace(100, 4, "\xED\xA1\xDA\x01");  // begins no event
+  junk.replace(100, 4, "\xED\xA1\xDA\x01");  // sync word without an event
   write(event + junk + event + junk + event);
   const Read read = read_all();
   EXPECT_EQ(read.events, 3);
@@ -130,7 +130,7 @@ TEST_F(EventLogTest, ALengthThatCannotBeTakesNoOtherEventAlong) {
 }
 
 TEST_F(EventLogTest, OfSyncWordsAloneIsReadOnce) {
-  // Each could begin an event of 15 MB: to look for its end anew each time would take minutes.
+  // Each header could begin an event of 15 MB. A new search for its end at each header would take minutes.
   testing::EventLogFile log(path_);
   log.add_bytes(1, "A", {1});
   std::string header = "\xED\xA1\xDA\x01";
@@ -153,7 +153,7 @@ TEST_F(EventLogTest, SurvivesAnyBytes) {
     if (run % 2 == 0) file.write("\xED\xA1\xDA\x01", 4);
     for (int i = 0; i < 200; ++i) file.put(static_cast<char>(random()));
     file.close();
-    refusal();  // whatever it is: no crash, no endless loop, no huge allocation
+    refusal();  // no crash, no endless loop, no huge allocation
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Message types that are published: a change of a field changes LCM's fingerprint, and needs a new type with the next number.
+// Published message types are frozen. A changed field changes LCM's fingerprint, and needs a new type with the next number.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -12,7 +12,7 @@
 namespace strainwave {
 namespace {
 
-/// A message whose table part is random bytes: NaNs with payloads, impossible counts, text without an end.
+/// A message with random bytes as its table: NaNs with payloads, impossible counts, unterminated text.
 gain_table_v1 random_message(unsigned seed) {
   static_assert(std::is_trivially_copyable_v<gain_table_v1>);
   std::mt19937 random(seed);

@@ -22,7 +22,7 @@ void expect_keys_of_schema() {
   EXPECT_EQ(value.size(), schema["properties"].size());
 }
 
-/// As Foxglove's reader has it (parseJsonSchema): one word, or it shows nothing of the topic.
+/// Foxglove's parseJsonSchema requires one word as the type of a field. Otherwise it shows nothing of the topic.
 template <typename Message>
 void expect_types_that_viewers_know() {
   const Json schema = Json::parse(message_schema<Message>());

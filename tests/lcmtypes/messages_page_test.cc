@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pages of the messages against the declarations: every field with its type in its order.
+// The documentation of the messages must contain every declared field with its type, in the declared order.
 #include <gtest/gtest.h>
 
 #include <filesystem>

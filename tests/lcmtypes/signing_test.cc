@@ -42,7 +42,7 @@ TEST(Signing, CoversEveryBitOfTheMessageAndOfTheSignature) {
   std::vector<std::uint8_t> bytes = signed_command(key_number(1));
   const std::size_t key_id_begin = bytes.size() - kSealBytes;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
-    // key_id only says which key to try: whoever changes it is refused by that key.
+    // key_id only selects the key for the check. With a changed key_id the other key refuses the message.
     if (i >= key_id_begin && i < key_id_begin + sizeof(KeyId)) continue;
     for (int bit = 0; bit < 8; ++bit) {
       bytes[i] = static_cast<std::uint8_t>(bytes[i] ^ (1U << bit));
@@ -107,7 +107,7 @@ TEST(Signing, IsNotFooledByAKeyOfSmallOrder) {
   EXPECT_FALSE(verify(kChannel, neutral, bytes));
 }
 
-// RFC 8032, section 7.1, test 1: the seed and the public key that belongs to it.
+// RFC 8032, section 7.1, test 1: the seed and its public key.
 TEST(Signing, DerivesThePublicKeyOfTheStandardsExample) {
   const SecretKey::Seed seed{0x9d, 0x61, 0xb1, 0x9d, 0xef, 0xfd, 0x5a, 0x60, 0xba, 0x84, 0x4a,
                              0xf4, 0x92, 0xec, 0x2c, 0xc4, 0x44, 0x49, 0xc5, 0x69, 0x7b, 0x32,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the vocabulary says of numbers; tests/docs/vocabulary_test checks its data.
+// Words of the vocabulary for numbers. tests/docs/vocabulary_test checks its data.
 #include "strainwave/vocabulary.h"
 
 #include <gtest/gtest.h>

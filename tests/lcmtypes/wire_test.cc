@@ -28,7 +28,7 @@ constexpr std::size_t kFingerprintBytes = 8;
 template <typename Message>
 class WireTest : public ::testing::Test {
  protected:
-  /// A message with every byte random, NaNs and all.
+  /// A message of random bytes, which may be NaNs.
   static Message random_message(unsigned seed) {
     static_assert(std::is_trivially_copyable_v<Message>);
     std::mt19937 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program in C++ that knows Strainwave by its messages alone: reads an encoded state from its standard input.
+// A C++ program that uses only the message types of Strainwave. It reads an encoded state from its standard input.
 #include <iostream>
 #include <iterator>
 #include <strainwave/state_v1.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program in C that knows Strainwave by its messages alone: writes an encoded setpoint to its standard output.
+// A C program that uses only the message types of Strainwave. It writes an encoded setpoint to its standard output.
 #include <stdio.h>
 #include <strainwave/strainwave_setpoint_v1.h>
 

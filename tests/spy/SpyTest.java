@@ -22,8 +22,8 @@ import strainwave.spy.JointPlot;
 import strainwave.spy.Numbers;
 
 /**
- * Starts the viewer as strainwave-spy does, in a real X server, beside a running daemon, and uses it with mouse events: every
- * channel must be decoded by our types, and "Plot joint" must draw the joint that moves, all curves above one time.
+ * Starts the viewer as strainwave-spy does, in a real X server next to a running daemon, and uses it with mouse events. Our types
+ * must decode every channel, and "Plot joint" must draw the moving joint, with all curves over one time axis.
  *
  * <p>SpyTest PICTURE.png
  */
@@ -48,7 +48,7 @@ final class SpyTest {
     robot.setAutoWaitForIdle(true);
     place(SwingUtilities.getWindowAncestor(table), 0, 0, 640, 780);
     final Map.Entry<String, String> state = Map.entry("SW.elbow.STATE", TYPES.get("SW.elbow.STATE"));
-    // Rows and window move while channels come: a click that hit something else is made again.
+    // Rows and window move while channels appear, so a click may miss and is repeated.
     JMenuItem found = null;
     for (int attempt = 0; found == null && attempt < 10; ++attempt) {
       click(robot, centre(table, row(table, state)), InputEvent.BUTTON3_DOWN_MASK);
@@ -65,7 +65,7 @@ final class SpyTest {
     if (!Arrays.stream(zeros).allMatch("0"::equals)) System.exit(1);
     await("200 points of every curve",
         () -> Arrays.stream(plot.drawnPoints()).allMatch(points -> points >= 200) ? plot : null);
-    // Labels change with the motion, and the axes follow at the next drawing: mostly they are aligned, however busy the machine.
+    // Labels change with the motion, and the axes follow at the next redraw. So they are aligned at most looks, even on a busy machine.
     int aligned = 0;
     for (int look = 0; look < 40; ++look, Thread.sleep(100)) {
       final int[][][] axes = new int[1][][];
@@ -77,14 +77,14 @@ final class SpyTest {
     // A double click shows the fields of a channel that has no plot.
     final int temperatureRow =
         row(table, Map.entry("SW.elbow.TEMPERATURE", TYPES.get("SW.elbow.TEMPERATURE")));
-    robot.setAutoWaitForIdle(false);  // two clicks that are far apart are no double click
+    robot.setAutoWaitForIdle(false);  // two clicks far apart in time are not a double click
     for (int i = 0; i < 2; ++i) click(robot, centre(table, temperatureRow), InputEvent.BUTTON1_DOWN_MASK);
     final Window fields = await("the window of decoded fields", () -> {
       final lcm.spy.ObjectPanel panel = find(lcm.spy.ObjectPanel.class);
       return panel == null ? null : SwingUtilities.getWindowAncestor(panel);
     });
     place(fields, 0, 300, 640, 480);
-    // Some more of the motion, for the picture.
+    // Records more of the motion for the picture.
     Thread.sleep(8_000);
     final Rectangle screen = new Rectangle(Toolkit.getDefaultToolkit().getScreenSize());
     ImageIO.write(robot.createScreenCapture(screen), "png", new File(arguments[0]));
@@ -92,12 +92,12 @@ final class SpyTest {
     System.exit(0);
   }
 
-  /** What `find` gives on Swing's thread, once it gives something; the test ends when it never does. */
+  /** Calls `find` on Swing's thread until it returns something. Ends the test if it never does. */
   private static <T> T await(String what, Supplier<T> find) throws Exception {
     return seenOrEnd(what, seek(PATIENCE_MS, find));
   }
 
-  /** What `find` gives on Swing's thread within `patience_ms`, or null. */
+  /** Returns what `find` returns on Swing's thread within `patience_ms`, or null. */
   private static <T> T seek(long patience_ms, Supplier<T> find) throws Exception {
     final long deadline_ms = System.currentTimeMillis() + patience_ms;
     while (System.currentTimeMillis() < deadline_ms) {

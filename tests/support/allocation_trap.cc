@@ -28,7 +28,7 @@ std::atomic<std::int64_t> free_count{0};
 
 namespace {
 
-// The system call is made only while a trap is set, so that programs run at their usual speed otherwise.
+// The system call happens only while a trap is set, so that programs otherwise run at their usual speed.
 void count_into(std::atomic<std::int64_t>& counter) noexcept {
   const pid_t trapped = trapped_thread.load(std::memory_order_relaxed);
   if (trapped != 0 && ::gettid() == trapped) counter.fetch_add(1, std::memory_order_relaxed);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts what one thread allocates and frees on the heap: proof that real-time code does neither. For tests.
+// Counts what one thread allocates and frees on the heap, to show that real-time code does neither. For tests.
 //
-// Linking this file's target replaces malloc and its relatives in the whole program by ones that count and
-// then do what the C library does; operator new ends there too. Under a sanitizer, which has its own, nothing
-// is counted: ask available() and skip the test.
+// Linking this file's target replaces malloc and its relatives in the whole program. The replacements count,
+// and then call the C library; operator new ends there too. A sanitizer has its own malloc, with which
+// nothing is counted. Tests therefore ask available() and skip.
 //
 //   AllocationTrap trap;
 //   loop.step(time);
@@ -28,7 +28,7 @@ class AllocationTrap {
   static bool available() noexcept;
 
   std::int64_t allocations() const noexcept;
-  std::int64_t frees() const noexcept;  ///< of null not counted
+  std::int64_t frees() const noexcept;  ///< except of null
   std::int64_t touches() const noexcept { return allocations() + frees(); }
 };
 

@@ -21,7 +21,7 @@ class AllocationTrapTest : public ::testing::Test {
   }
 };
 
-// Out of the optimiser's sight, which may remove an allocation that nobody looks at.
+// The volatile pointer hides allocations from the optimiser, which may remove unused ones.
 void* volatile sink = nullptr;
 
 void allocate_and_free_once() {
@@ -73,7 +73,7 @@ TEST_F(AllocationTrapTest, CountsOnlyTheTrappedThread) {
     while (!go) std::this_thread::yield();
     allocate_and_free_once();
     done = true;
-    while (!may_end) std::this_thread::yield();  // the end of a thread frees what the library made for it
+    while (!may_end) std::this_thread::yield();  // the end of a thread frees the library's memory
   });
   while (id == 0) std::this_thread::yield();
   const AllocationTrap trap(id);

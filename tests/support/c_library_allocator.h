@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C library's own allocator, by the names under which it can be reached when its public ones are replaced.
+// Names of the C library's own allocator, which remain available if the public functions are replaced.
 #pragma once
 
 #include <cstddef>

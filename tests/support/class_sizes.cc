@@ -13,7 +13,7 @@ namespace strainwave::testing {
 
 namespace {
 
-// A record is as wide as its data.
+// A class with at most this many methods is a record, and may have any number of members.
 constexpr int kMethodsOfARecord = 1;
 
 bool begins_with(const std::string& text, const char* pattern) {
@@ -25,7 +25,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \n\t") + 1 - first);
 }
 
-/// Without what stands between angle brackets: `std::function<void(int)>` is no function.
+/// `text` without template arguments: `std::function<void(int)>` is not a function.
 std::string without_arguments(const std::string& text) {
   std::string outside;
   int depth = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many data members and methods the classes of a tree of sources have, by their definitions in the text.
+// Counts the data members and methods of the classes in a source tree, from the text of their definitions.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ struct ClassSize {
   int methods = 0;  ///< declared in the class; constructors, destructors and assignments excepted
 };
 
-/// Of every class and struct that `source` defines, nested ones on their own.
+/// The sizes of every class and struct that `source` defines. Nested classes count separately.
 std::vector<ClassSize> class_sizes(const std::string& source);
 
-/// One sentence for each class under `root` with more than `most_members` or `most_methods`: its name, its file, its sizes. Records,
-/// with at most one method, may be wider.
+/// One sentence for each class under `root` with more than `most_members` or `most_methods`: its name, file
+/// and sizes. Records, which have at most one method, may have more members.
 std::vector<std::string> find_large_classes(const std::filesystem::path& root, int most_members,
                                             int most_methods);
 

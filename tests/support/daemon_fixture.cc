@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPollStep = std::chrono::milliseconds(10);
 
-// One network for all tests of a program, entered before any thread exists.
+// All tests of a program share one network, which is entered before any thread exists.
 class PrivateNetwork : public ::testing::Environment {
  public:
   void SetUp() override {
@@ -47,7 +47,7 @@ bool in_virtual_time() {
 }
 
 std::filesystem::path programs_folder() {
-  // In the virtual machine everything that a test needs lies beside it.
+  // In the virtual machine, all files that a test needs are in the current folder.
   return in_virtual_time() ? std::filesystem::current_path()
                            : std::filesystem::path(STRAINWAVE_BINARY_DIR) / "bin";
 }
@@ -58,12 +58,12 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::str
   const std::filesystem::path config_path = folder / "strainwaved.toml";
   std::ofstream(config_path) << configuration;
   const std::string program = programs_folder() / "strainwaved";
-  // Locks of this program's own: tests of different programs share a machine, but no daemon.
+  // This program's own folder of locks: tests of different programs share a machine, but no daemon.
   static const TemporaryFolder kLocks;
   const int log = ::open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   pid_ = ::fork();
   if (pid_ == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves no daemon behind
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // if a test crashes, its daemon ends
     if (!start.preload.empty())
       ::setenv("LD_PRELOAD", start.preload.c_str(), 1);       // NOLINT(concurrency-mt-unsafe)
     ::setenv("RUNTIME_DIRECTORY", kLocks.path().c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
@@ -127,7 +127,7 @@ bool DaemonProcess::wait_for_log(const std::string& text, std::chrono::milliseco
 
 namespace {
 
-// A host that is not real-time leaves the loop standing now and then: the simulated drives have a watchdog, as real ones do.
+// Without real-time priority, the loop stalls now and then. The simulated drives have a watchdog, as real drives do.
 std::string attended(std::string joints) {
   const std::string section = "[joint.simulated]\n";
   const std::string watchdog = "watchdog_s = 0.005\n";
@@ -154,7 +154,7 @@ inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "simulated"
 limits = { position_min_rad = -3.2, position_max_rad = 3.2, speed_limit_rad_s = 6, acceleration_rad_s2 = 150, move_speed_share = 1, following_error_rad = 0.1, torque_limit_Nm = 34)" +
-         // A joint that lives by the time runs on while the loop of a host that is not real-time stands.
+         // The simulated joint runs by the clock. It moves on while the loop of a host without real time stalls.
          (in_virtual_time() ? "" : ", overspeed_rad_s = 100") + R"( }
 )" + attended(joint_extra);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The real daemon, started by a test with a configuration of its own in a network of its own.
+// The real daemon, which a test starts with its own configuration in its own network.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,17 +15,17 @@
 
 namespace strainwave::testing {
 
-/// Whether this is the virtual machine of tests/vm, whose time is virtual: what the loop does there can be asserted to the
-/// cycle. Elsewhere the machine has other things to do.
+/// Whether this is the virtual machine of tests/vm with its virtual time. There, tests can assert the loop's
+/// behaviour to the cycle. On other machines, other programs run as well.
 bool in_virtual_time();
 
 /// Folder of the programs under test.
 std::filesystem::path programs_folder();
 
-/// How strainwaved is started, where it is not as usual.
+/// Options of the start of strainwaved.
 struct DaemonStart {
-  std::filesystem::path preload;  ///< a library that is loaded into it first
-  int log_file = -1;              ///< descriptor that it logs to, instead of a file of its own
+  std::filesystem::path preload;  ///< library that is loaded into it first
+  int log_file = -1;              ///< descriptor of its log, instead of a file
 };
 
 /// strainwaved as a child process.
@@ -34,19 +34,19 @@ class DaemonProcess {
   /// `configuration` is the text of the TOML file; it is written into `folder`.
   DaemonProcess(const std::filesystem::path& folder, const std::string& configuration,
                 const DaemonStart& start = {});
-  /// Ends it by SIGKILL if it still runs.
+  /// Kills the process with SIGKILL if it still runs.
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;
 
   void signal(int signal_number) const;
-  /// Waits for its end; the exit status, 128 + n after signal n, or -1 when it still runs after `timeout`.
+  /// Waits for its end. Returns the exit status, 128 + n after signal n, or -1 if it still runs after `timeout`.
   int wait_for_end(std::chrono::milliseconds timeout);
   bool running();
   pid_t pid() const { return pid_; }
   /// Process id of its gateway, or -1.
   pid_t gateway_pid() const;
-  /// What it has logged so far.
+  /// The log so far.
   std::string log() const;
   bool wait_for_log(const std::string& text, std::chrono::milliseconds timeout) const;
 
@@ -56,7 +56,7 @@ class DaemonProcess {
   int status_ = -1;
 };
 
-/// A folder and, in a network of the test's own, room for daemons and clients.
+/// A test with a temporary folder and its own network for daemons and clients.
 class DaemonTest : public ::testing::Test {
  protected:
   /// A configuration with one simulated joint "elbow" on prefix SW; `joint_extra` goes into its [[joint]] (sub-tables

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Eigen's own solvers say of a matrix, for tests that judge ours by them. Compiled once: a solver costs seconds in every file, and
-// again for every type of matrix.
+// Results of Eigen's own solvers, to which tests compare ours. They are compiled here once: a solver costs
+// seconds in every file, and again for every type of matrix.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,10 @@ namespace strainwave::testing {
 /// The largest absolute value of an eigenvalue of a square matrix.
 double spectral_radius(const Eigen::MatrixXd& matrix);
 
-/// The same of those eigenvalues that turn by more than `angle_rad` in a step: of what swings, not of what creeps.
+/// The same for eigenvalues that turn by more than `angle_rad` per step. These belong to oscillating modes.
 double swing_radius(const Eigen::MatrixXd& matrix, double angle_rad);
 
-/// Of a symmetric matrix, of which the lower half is read.
+/// The smallest eigenvalue of a symmetric matrix. Only the lower half is read.
 double smallest_eigenvalue(const Eigen::MatrixXd& matrix);
 
 }  // namespace strainwave::testing

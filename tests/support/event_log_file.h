@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Event logs for tests, written byte by byte: what the writer under test shares no code with.
+// Event logs for tests, written byte by byte. The code is independent of the writer under test.
 #pragma once
 
 #include <filesystem>

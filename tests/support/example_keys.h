@@ -9,7 +9,7 @@
 
 namespace strainwave::testing {
 
-/// One operator's key, made anew, as `folder`/authorized_keys.
+/// Generates one operator's key and writes it to `folder`/authorized_keys.
 inline void write_authorized_keys(const std::filesystem::path& folder) {
   const AuthorizedKey key{SecretKey::generate().public_key(), Role::kOperator, "test"};
   std::ofstream(folder / "authorized_keys") << to_line(key) << '\n';

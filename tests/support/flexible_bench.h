@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The joint of the demo on a spring, for tests of the loop.
+// The joint of config/demo.toml with a spring, for tests of the loop.
 #pragma once
 
 #include "control/table/gain_table_json.h"
@@ -8,7 +8,7 @@
 
 namespace strainwave::testing {
 
-/// Puts `joint` on the link and the spring of `plant`.
+/// Gives `joint` the link and the spring of `plant`.
 inline void put_on_spring(BenchJoint& joint, const JointPlantConfig& plant) {
   joint.drive.plant = plant;
   JointControllerConfig& controller = joint.loop.controller;
@@ -16,7 +16,7 @@ inline void put_on_spring(BenchJoint& joint, const JointPlantConfig& plant) {
   controller.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
 }
 
-/// A link as heavy as the motor on the gear's spring, and a load besides that is not configured.
+/// The gear's spring with a link as heavy as the motor, and an additional load that is not configured.
 inline BenchJoint flexible_joint(double load_kgm2 = 0.0) {
   BenchJoint joint = demo_joint();
   put_on_spring(joint, flexible_plant());
@@ -24,7 +24,7 @@ inline BenchJoint flexible_joint(double load_kgm2 = 0.0) {
   return joint;
 }
 
-/// Of the reference joint with a link of the motor's inertia.
+/// The table of the reference joint with a link of the motor's inertia.
 inline const GainTable& flexible_table() {
   static const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
   return table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody on the network who sends the fragments that end whoever receives with LCM's library (lcm_datagrams.h), again and again.
+// An attacker that repeatedly sends the fragments which crash receivers with LCM's library (lcm_datagrams.h).
 #pragma once
 
 #include <arpa/inet.h>
@@ -20,8 +20,8 @@ namespace strainwave::testing {
 
 class FragmentAttack {
  public:
-  /// To `channels`, every millisecond, until it goes out of scope. LCM's library only looks at fragments of channels that
-  /// somebody listens to.
+  /// Sends to `channels` every millisecond until it goes out of scope. LCM's library looks only at fragments
+  /// of channels with a subscriber.
   FragmentAttack(const std::string& lcm_url, std::vector<std::string> channels)
       : address_(*parse_udpm_url(lcm_url)), channels_(std::move(channels)), thread_([this] { run(); }) {}
   ~FragmentAttack() {
@@ -31,7 +31,7 @@ class FragmentAttack {
   FragmentAttack(const FragmentAttack&) = delete;
   FragmentAttack& operator=(const FragmentAttack&) = delete;
 
-  /// How often every channel was sent its fragments.
+  /// Number of times that every channel was sent its fragments.
   std::uint32_t rounds() const noexcept { return rounds_; }
 
  private:

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The other side of a GPIO joint's wires, for tests in the virtual machine: it reads the lines and the PWM
-// that the daemon drives, turns the motor, and moves counter, switches and encoder lines accordingly. It
-// shares no code with drivers/gpio and knows only what a wire would: gpio-sim's sysfs files and plain files
-// in the place of PWM and counter.
+// The hardware at the other end of a GPIO joint's wires, for tests in the virtual machine. It reads the lines
+// and the PWM that the daemon drives, turns the motor, and moves counter, switches and encoder lines. It
+// shares no code with drivers/gpio and uses only the wires: gpio-sim's sysfs files, and plain files in the
+// place of PWM and counter.
 //
 //   gpio_board plant LINES TREE POSITION_RAD   the joint, until SIGTERM
 //   gpio_board encoder LINES RATE_HZ SECONDS BOUNCES   quadrature edges on lines a and b: three quarters forward,
-//       one back, each after so many bounces of 50 us; prints the count and the rate that came about
-//   gpio_board bounce LINES INPUT SECONDS      a contact: never active for more than 5 ms, nor inactive for less
-//       than 2 ms
+//       one back, each after so many bounces of 50 us; prints the count and the actual rate
+//   gpio_board bounce LINES INPUT SECONDS      a bouncing contact: never active for more than 5 ms, nor inactive
+//       for less than 2 ms
 //   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the
-//   duty 0
+//       duty 0
 //
-// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and
-// truth, the joint's position in rad.
+// LINES: folder with one link per line, with the line's name, to its sim_gpioN folder. TREE: folder with
+// pwm/, count0/ and truth, the joint's position in rad.
 #include <fcntl.h>
 #include <signal.h>
 #include <time.h>
@@ -138,14 +138,14 @@ int run_plant(const std::string& lines, const std::string& tree, double position
     const bool driven = enable.number() != 0;
     const double torque_Nm =
         (direction.number() != 0 ? -1.0 : 1.0) * share * kFullScale_A * kTorqueConstant_Nm_A;
-    // A shut brake holds whatever the motor does.
+    // A closed brake holds the joint whatever the motor's torque.
     if (brake.number() != 0) plant.step(driven ? torque_Nm : 0.0);
     const double now_rad = plant.state().position_rad;
     const long counts = std::lround((now_rad - position_rad) * kCounts_rad);
     char text[24];
     std::snprintf(text, sizeof text, "%010lu\n", static_cast<unsigned long>(counts) & 0xFFFFFFFFUL);
     count.put(text);
-    // Contacts that open at the end of travel, one that closes at home.
+    // The end-of-travel contacts open there. The home contact closes at home.
     negative.set(now_rad <= -kEnd_rad);
     positive.set(now_rad >= kEnd_rad);
     home.set(!(now_rad >= kHomeFrom_rad && now_rad <= kHomeTo_rad));
@@ -185,7 +185,7 @@ int run_encoder(const std::string& lines, double rate_Hz, double duration_s, int
     const bool a_high = phase == 1 || phase == 2;
     const bool b_high = phase == 2 || phase == 3;
     for (int bounce = 0; bounce < bounces; ++bounce) {
-      // One of the two is new.
+      // Only one of the two lines changes.
       const bool a_before = a.high();
       const bool b_before = b.high();
       a.set(a_high);

@@ -12,13 +12,13 @@ namespace strainwave::testing {
 namespace {
 
 struct Library {
-  std::string_view header;              ///< how its headers begin
-  std::vector<std::string_view> users;  ///< files (as they begin) that may include it
-  bool in_headers = true;               ///< false: slow to compile, for .cc files only ...
-  std::string_view but = "";            ///< ... and this header of templates
+  std::string_view header;              ///< beginning of its headers' names
+  std::vector<std::string_view> users;  ///< beginnings of the files that may include it
+  bool in_headers = true;               ///< false: slow to compile, for .cc files only
+  std::string_view but = "";            ///< and for this header of templates
 };
 
-/// Libraries that not everybody may use. lcm: it sends and writes logs, for receiving there is transport/; never the core.
+/// Libraries that only some files may use. lcm/ only sends and writes logs; transport/ receives. The core never uses it.
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"Clp_", {"sim/studies/linear_program.cc"}},
@@ -39,7 +39,7 @@ const std::vector<Library> kLibraries{
      false},
 };
 
-/// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen.
+/// Headers that control/ must not include: it has no threads, sockets or clocks, and no library except Eigen.
 const std::set<std::string_view> kForbiddenInControl{
     "thread",  "mutex",     "shared_mutex", "condition_variable",
     "future",  "semaphore", "barrier",      "latch",
@@ -56,7 +56,7 @@ std::string_view top_folder(std::string_view path) {
   return path.substr(0, path.find('/'));
 }
 
-/// Whether `file` is what `name` of the table stands for: "folder/" and all below, "folder/begin*" the files there, or itself.
+/// Whether the table's `name` covers `file`: "folder/" covers all below, "folder/begin*" files there, others themselves.
 bool fits(std::string_view name, std::string_view file) {
   if (name.ends_with('/')) return file.starts_with(name);
   if (!name.ends_with('*')) return file == name;
@@ -64,7 +64,7 @@ bool fits(std::string_view name, std::string_view file) {
   return file.starts_with(name) && file.find('/', name.size()) == std::string_view::npos;
 }
 
-/// What stands in `...` in one cell.
+/// The names in `...` in one cell.
 std::vector<std::string> names_in(const std::string& cell) {
   static const std::regex kName("`([^`]+)`");
   std::vector<std::string> names;
@@ -124,7 +124,7 @@ IncludeRules::IncludeRules(const std::filesystem::path& page) {
     static const std::regex kRow(R"(\|([^|]*)\|[^|]*\|([^|]*)\|)");
     std::smatch cells;
     if (!in_table || !std::regex_match(line, cells, kRow)) continue;
-    // A row without a word on what it may include is of a folder without sources.
+    // A folder without sources has an empty cell.
     if (cells[2].str().find_first_not_of(' ') == std::string::npos) continue;
     for (const std::string& name : names_in(cells[1])) rows_.push_back({name, names_in(cells[2])});
   }
@@ -154,7 +154,7 @@ std::string IncludeRules::find_defect(std::string_view file, std::string_view li
   if (!include) return "";
   const std::string& header = include->header;
   if (include->quoted) return check_our_header(file, header);
-  // As others see it: what lcm-gen makes, and what is installed before the tests' programs of others.
+  // Tests of the installed library, and headers of lcm-gen, use the form with <...>.
   const bool installed =
       header.starts_with("strainwave/") && (header.ends_with(".hpp") || file.starts_with("tests/"));
   if (!installed && row_of(header) != nullptr)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which folder may include what: the table of docs/architecture.md, and a reader of #include lines that holds the tree against
-// it. Which library may be included where stands in include_rules.cc.
+// Checks which folder may include what. The rules are in the table of docs/architecture.md. Which library may
+// be included where is in include_rules.cc.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,12 @@ class IncludeRules {
 
   std::size_t row_count() const noexcept { return rows_.size(); }
 
-  /// What is wrong with `line`, a line of the source file `file` (path from the root, e.g. "daemon/config/config.cc");
-  /// empty when nothing is, or when it is no #include line.
+  /// The defect in `line`, a line of the source file `file` (path from the root, e.g.
+  /// "daemon/config/config.cc"). Empty if the line has no defect or is no #include line.
   std::string find_defect(std::string_view file, std::string_view line) const;
 
   /// One sentence "<file>:<line>: ..." for every defect in the sources under `root`. Sources in a folder that
-  /// the table does not know are defects, too.
+  /// is not in the table are defects, too.
   std::vector<std::string> find_defects(const std::filesystem::path& root) const;
 
   /// One sentence for every permission, of the table and of the libraries, that no source under `root` uses.
@@ -41,7 +41,7 @@ class IncludeRules {
   std::vector<Row> rows_;
 };
 
-/// Every C and C++ source under `root`, sorted. Folders that hold no sources of ours (build, .git) are not read.
+/// Every C and C++ source under `root`, sorted, without those in folders such as build and .git.
 std::vector<std::filesystem::path> sources_under(const std::filesystem::path& root);
 
 }  // namespace strainwave::testing

@@ -12,7 +12,7 @@ namespace strainwave::testing {
 
 namespace {
 
-/// Virtual time that drives have burned in the current period.
+/// Virtual time that drives have taken in the current period.
 std::int64_t burned_ns = 0;
 
 void burn(std::int64_t duration_ns) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints in virtual time: real JointLoops over simulated drives that may be faulty, a period per step,
-// nothing depends on the host's clock. For tests of the loop and for benchmarks of it.
+// Joints in virtual time, for tests and benchmarks of the loop: real JointLoops with simulated drives, which
+// may be faulty. A step is one period, and nothing depends on the host's clock.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ struct BenchJoint {
   std::vector<Injection> faults;
 };
 BenchJoint demo_joint();
-/// So many times the static and Coulomb friction that it had, which its table knows.
+/// Multiplies the joint's static and Coulomb friction by `scale`. Its table still has the old friction.
 void scale_friction(BenchJoint& joint, double scale);
-/// The same with so many times the static and Coulomb friction that its table knows.
+/// The same joint with static and Coulomb friction `scale` times that of its table.
 BenchJoint demo_joint_with_friction(double scale);
 
-/// The table shipped for it.
+/// The table shipped for the joint.
 const GainTable& demo_table();
 
-/// Passes everything on and remembers the last order.
+/// Forwards everything and remembers the last command.
 class WatchedActuator final : public Actuator {
  public:
   explicit WatchedActuator(std::unique_ptr<SimulatedActuator> actuator) : actuator_(std::move(actuator)) {}
@@ -61,23 +61,23 @@ class WatchedActuator final : public Actuator {
 class JointBench {
  public:
   explicit JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns = {});
-  /// One joint on a drive of the test's own.
+  /// One joint on a drive that the test supplies.
   JointBench(const JointLoopConfig& loop, std::unique_ptr<Actuator> drive);
 
-  /// One period of every joint. A drive that burns more than a period makes the next ones be skipped, as in
+  /// One period of every joint. If a drive takes longer than a period, the next periods are skipped, as in
   /// the daemon.
   void step();
   void run(double duration_s);
-  /// Before the next step the loop is away for so many periods.
+  /// Before the next step, the loop stalls for `periods` periods.
   void stall(std::int64_t periods);
-  /// Steps until `condition` holds; how many steps that took, or -1 after `limit` of them.
+  /// Steps until `condition` holds. Returns the number of steps, or -1 after `limit` of them.
   std::int64_t step_until(const std::function<bool()>& condition, std::int64_t limit);
 
-  /// Gives the order and makes one step; the loop's answer.
+  /// Gives the order and makes one step. Returns the loop's answer.
   Reason order(std::size_t joint, Order order);
   const Reply& last_reply() const noexcept { return last_reply_; }
   Reason order(std::size_t joint, OrderKind kind) { return this->order(joint, Order{.kind = kind}); }
-  /// A move, or with `valid_for_s` a setpoint of stream 1, which begins with it unless `begins` is false.
+  /// A move, or with `valid_for_s` a setpoint of stream 1. The stream begins with it unless `begins` is false.
   Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0, bool begins = true) {
     const bool streamed = valid_for_s > 0.0;
     return order(joint, Order{.kind = OrderKind::kSetpoint,
@@ -101,7 +101,7 @@ class JointBench {
   bool has_notice(std::size_t joint, Notice notice) const {
     return (state(joint).notices & static_cast<std::int32_t>(notice)) != 0;
   }
-  /// A sender's clock, now.
+  /// The present time of a sender's clock.
   std::int64_t sent_us() const { return 1'700'000'000'000'000 + 1000 * time_.cycle; }
   WatchedActuator& drive(std::size_t joint) { return *drives_[joint]; }
   std::int64_t cycle() const { return time_.cycle; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams of LCM's wire format, written down once more for tests: from LCM 1.3.1's udpm_util.h, not from our parser.
+// Datagrams of LCM's wire format for tests, written from LCM 1.3.1's udpm_util.h and independent of our parser.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct FragmentHeader {
   std::uint16_t count = 0;
 };
 
-/// `body` follows the header as it is, with the channel of fragment 0.
+/// `body` follows the header unchanged. In fragment 0 it includes the channel.
 inline Bytes fragment_datagram(const FragmentHeader& header, const Bytes& body) {
   Bytes bytes;
   put_number(bytes, 0x4c433033, 4);
@@ -50,7 +50,7 @@ inline Bytes fragment_datagram(const FragmentHeader& header, const Bytes& body) 
   return bytes;
 }
 
-/// `message` in fragments of `part_bytes` of it each (the last may be shorter).
+/// `message` in fragments of `part_bytes` bytes of it each. The last one may be shorter.
 inline std::vector<Bytes> fragments(const std::string& channel, const Bytes& message, std::size_t part_bytes,
                                     std::uint32_t sequence = 0) {
   std::vector<Bytes> datagrams;
@@ -70,7 +70,7 @@ inline std::vector<Bytes> fragments(const std::string& channel, const Bytes& mes
   return datagrams;
 }
 
-/// What makes LCM 1.3.1 write 4 GiB beyond its buffer: two fragments, the second of which ends where 32 bits wrap.
+/// Makes LCM 1.3.1 write 4 GiB beyond its buffer: two fragments, the second of which ends where 32 bits wrap.
 inline std::vector<Bytes> crashing_fragments(const std::string& channel, std::uint32_t sequence) {
   constexpr std::uint32_t kPart = 1000;
   Bytes first;
@@ -80,7 +80,7 @@ inline std::vector<Bytes> crashing_fragments(const std::string& channel, std::ui
           fragment_datagram({sequence, 5000, UINT32_MAX - kPart + 1, 1, 3}, Bytes(kPart))};
 }
 
-/// Bytes that differ from place to place and from seed to seed.
+/// Bytes that depend on place and seed.
 inline Bytes pattern(std::size_t size, std::uint32_t seed = 1) {
   Bytes bytes(size);
   for (std::size_t i = 0; i < size; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loaded into strainwaved before its own libraries (LD_PRELOAD): counts what the real-time thread must never
-// do, in the running daemon. It knows that thread by its SCHED_FIFO policy. The counts stand in the file that
-// $STRAINWAVE_LOOP_TRAP names, mapped, so that a test reads them while the daemon runs.
+// Loaded into strainwaved before its own libraries (LD_PRELOAD): counts in the running daemon what the
+// real-time thread must never do. It recognises that thread by its SCHED_FIFO policy. The counts are in the
+// mapped file $STRAINWAVE_LOOP_TRAP, so that a test reads them while the daemon runs.
 #include "tests/support/loop_trap.h"
 
 #include <dlfcn.h>
@@ -41,7 +41,7 @@ Function* next(const char* name) noexcept {
 __attribute__((constructor)) void open_counts() {
   const char* path = std::getenv("STRAINWAVE_LOOP_TRAP");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (path == nullptr) return;
-  ::unsetenv("LD_PRELOAD");  // not into the gateway, whose filter forbids the questions asked here
+  ::unsetenv("LD_PRELOAD");  // not in the gateway, whose filter forbids the system calls made here
   const int file = ::open(path, O_RDWR | O_CLOEXEC);
   if (file < 0) return;
   void* memory = ::mmap(nullptr, sizeof(LoopTrapCounts), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);

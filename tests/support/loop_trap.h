@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What loop_trap.cc counts on the real-time thread of a running daemon.
+// Counts of loop_trap.cc for the real-time thread of a running daemon.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@ namespace strainwave::testing {
 
 struct LoopTrapCounts {
   std::atomic<std::int64_t> loaded;       ///< 1: the library is in the process
-  std::atomic<std::int64_t> allocations;  ///< of heap memory, and releases
+  std::atomic<std::int64_t> allocations;  ///< allocations and releases of heap memory
   std::atomic<std::int64_t> locks;        ///< mutexes, read-write locks and waits, contended or not
 };
 

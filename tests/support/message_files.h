@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the .lcm files as they are written, so that tests can compare code and documents with them.
+// Reads the fields of .lcm files, so that tests can compare code and documents with them.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// One field of a message as its .lcm file declares it; count is 1 for a scalar, the product of an array's
-/// sizes else.
+/// One field of a message as its .lcm file declares it. `count` is 1 for a scalar, else the product of an
+/// array's sizes.
 struct MessageField {
   std::string type;
   std::string name;
@@ -17,7 +17,7 @@ struct MessageField {
   int count = 1;
 };
 
-/// Fields of struct `name` in the file, in order. Empty when there is none.
+/// Fields of struct `name` in the file, in order. Empty if there is no such struct.
 std::vector<MessageField> read_message_fields(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace strainwave

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain datagrams to LCM's group on this machine, from one source.
+// Sends plain datagrams to LCM's group on this machine from one socket.
 #pragma once
 
 #include <arpa/inet.h>

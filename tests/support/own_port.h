@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A UDP port for each process of tests: on another's it would be heard, and hear, when tests run side by side.
+// A UDP port for each test process. With a shared port, tests that run in parallel would hear each other.
 #pragma once
 
 #include <unistd.h>

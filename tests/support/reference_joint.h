@@ -9,7 +9,7 @@
 
 namespace strainwave::testing {
 
-/// Motor side and inertia of the actuator RHS-17-6006, at 1 kHz.
+/// Inertia and gear ratio of the actuator RHS-17-6006, at 1 kHz.
 inline PlantIdentity reference_identity() {
   PlantIdentity plant;
   plant.inertia_kgm2 = 0.089;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a call is refused, for tests of messages.
+// Checks the messages of refused calls.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::string refusal_of(const Call& call) {
   return "accepted";
 }
 
-/// Every one of `parts` occurs in `text`.
+/// Expects every one of `parts` in `text`.
 inline void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
   for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }

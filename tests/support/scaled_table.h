@@ -8,7 +8,7 @@
 
 namespace strainwave::testing {
 
-/// The table of `data/tables/NAME`, its gains in proportion to the inertia: the same closed loop on a rigid joint of it.
+/// The table of `data/tables/NAME` with gains in proportion to the inertia. A rigid joint then has the same closed loop.
 inline GainTable scaled_table(const std::string& name, double inertia_kgm2) {
   GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + name);
   const double scale = inertia_kgm2 / table.plant.inertia_kgm2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive on a bus that shares no line with control/ and sim/: an inertia that sticks, in explicit steps of 0.2 ms, that samples its
-// position with each SYNC and takes the newest torque with it, in whole steps of its own. What comes between is told: how late a SYNC
-// is, after how many of them a torque acts, how late and how irregularly positions come. Virtual time.
+// A drive on a bus that shares no code with control/ and sim/. Its joint is an inertia with static friction, in
+// explicit steps of 0.2 ms. With each SYNC it samples its position and takes the newest torque, in its own resolution.
+// Settings: delay of the SYNC, number of SYNCs until a torque acts, delay and jitter of positions. Virtual time.
 #pragma once
 
 #include <algorithm>
@@ -58,12 +58,12 @@ struct StrictDriveData {
   StrictJointData joint;
   double period_s = 0.001;
   int torque_lag = 0;              ///< SYNCs after the next one until a torque acts
-  double sync_after_s = 2e-4;      ///< from the begin of a period to its SYNC
-  double sync_jitter_s = 0.0;      ///< at most, even
+  double sync_after_s = 2e-4;      ///< from the beginning of a period to its SYNC
+  double sync_jitter_s = 0.0;      ///< largest, uniformly distributed
   double position_delay_s = 1e-4;  ///< from SYNC to TPDO
-  double position_jitter_s = 0.0;  ///< at most, later, even
-  double lost_share = 0.0;         ///< of the positions
-  double torque_step_Nm = 0.0096;  ///< a thousandth of the rated one
+  double position_jitter_s = 0.0;  ///< largest additional delay, uniformly distributed
+  double lost_share = 0.0;         ///< share of positions that are lost
+  double torque_step_Nm = 0.0096;  ///< a thousandth of the rated torque
   double counts_per_revolution = 320000.0;
   std::uint64_t seed = 1;
 };
@@ -101,7 +101,7 @@ class StrictDrive final : public Actuator {
     now_ns_ = now_ns;
     return reading;
   }
-  /// The SYNC follows. Over periods that the loop leaves out none is sent.
+  /// The SYNC follows. Periods that the loop skips have none.
   void write(const ActuatorCommand& command) noexcept override {
     enabled_ = command.enable;
     const double wanted_Nm = command.enable ? command.torque_Nm : 0.0;
@@ -129,7 +129,7 @@ class StrictDrive final : public Actuator {
     return most > 0.0 ? std::uniform_real_distribution<double>(0.0, most)(random_) : 0.0;
   }
 
-  /// The SYNC of the last period, if it has come by now.
+  /// Applies the SYNC of the last period if its time has come.
   void turn(std::int64_t now_ns) {
     if (!due_ || sync_ns_ > now_ns) return;
     due_ = false;
@@ -150,7 +150,7 @@ class StrictDrive final : public Actuator {
   StrictDriveData data_;
   StrictJoint joint_;
   std::mt19937_64 random_;
-  std::deque<double> acting_Nm_;  ///< the first one acts
+  std::deque<double> acting_Nm_;  ///< the first one acts now
   std::deque<Told> telling_;
   std::vector<std::int64_t> syncs_ns_;
   std::size_t next_sync_ = 0;

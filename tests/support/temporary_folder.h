@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder of the test's own, gone at its end: tests run in parallel and must not share files.
+// A temporary folder that is deleted at the end of the test: tests run in parallel and must not share files.
 #pragma once
 
 #include <stdlib.h>

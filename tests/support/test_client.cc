@@ -34,7 +34,7 @@ TestClient::TestClient(std::string prefix, const std::string& lcm_url)
 void TestClient::pump(std::chrono::milliseconds duration) {
   const auto deadline = Clock::now() + duration;
   do {
-    // To the nanosecond: a wait in whole milliseconds would spin through the last of them.
+    // In nanoseconds: a wait in whole milliseconds would spin through the last one.
     const std::chrono::nanoseconds left = deadline - Clock::now();
     const std::timespec timeout = to_timespec(std::max<std::int64_t>(0, left.count()));
     pollfd descriptor{lcm_.getFileno(), POLLIN, 0};
@@ -68,9 +68,9 @@ bool TestClient::wait_for_timing(std::chrono::milliseconds timeout) {
 
 template <typename Message>
 void TestClient::fill_envelope(const std::string& joint, Message& message) {
-  // What is quoted must be recent: what waits is taken first, and a state that came before a pause of the test is none.
+  // The quoted challenge must be recent. Waiting states are therefore read first, and one from before a pause of the test is ignored.
   for (pollfd waiting{lcm_.getFileno(), POLLIN, 0}; ::poll(&waiting, 1, 0) > 0;) lcm_.handle();
-  // Nor is one from before a stop of ours, which the daemon may have drawn before and published after it.
+  // A challenge from before our own stop is also ignored: the daemon may have published it after the stop.
   const auto recent = [&] {
     return states_[joint] && utime_now() - heard_us_[joint] < kRecent.count() &&
            states_[joint]->challenge != stopped_challenge_[joint] &&

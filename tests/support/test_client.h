@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A client that speaks to the daemon over LCM as any program would (it shares no code with strainwavectl).
+// A client that talks to the daemon over LCM like any program. It shares no code with strainwavectl.
 #pragma once
 
 #include <chrono>
@@ -36,7 +36,7 @@ class TestClient {
  public:
   explicit TestClient(std::string prefix = "SW", const std::string& lcm_url = kTestUrl);
 
-  /// Handles what has come within `duration`.
+  /// Handles all messages that arrive within `duration`.
   void pump(std::chrono::milliseconds duration);
   /// Pumps until `condition` holds for the latest state of `joint`; false after `timeout`.
   bool wait_for_state(const std::string& joint, const std::function<bool(const state_v1&)>& condition,
@@ -53,14 +53,14 @@ class TestClient {
 
   Answer command(const std::string& joint, Action action);
   Answer move(const std::string& joint, double position_rad, double valid_for_s = 0.0);
-  /// The next setpoint of a stream begins a new one.
+  /// The next setpoint of a stream begins a new stream.
   void begin_stream() {
     ++stream_id_;
     stream_begins_ = true;
   }
   Answer load(const std::string& joint, const GainTable& table);
 
-  /// The messages themselves, for tests that bend them before they are sent.
+  /// The messages themselves, for tests that change them before sending.
   command_v1 make_command(const std::string& joint, Action action);
   setpoint_v1 make_setpoint(const std::string& joint, double position_rad, double valid_for_s = 0.0);
   gain_table_v1 make_table(const std::string& joint, const GainTable& table);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint with a spring, written a second time: nothing of control/ or sim/ is in it. Two masses in fine semi-implicit steps, the
-// gear's three slopes, Stribeck friction of the motor that sticks and breaks away or first gives way like a spring, the supply's line, a delay in whole periods, an
-// encoder with counts. What is found on the simulator's joint, whose integrator and events are others, is found here as well or not true.
+// A second, independent model of a joint with a spring, without code of control/ or sim/. Two masses move in fine semi-implicit steps, with the
+// gear's three slopes, the supply's limit, a delay in whole periods and an encoder with counts. The motor's Stribeck friction sticks and breaks
+// away, or first gives way like a spring. Findings on the simulator's joint, which has another integrator, must hold here as well.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ struct TwoMassData {
   double motor_kgm2 = 0.089;
   double link_kgm2 = 0.0;  ///< 0: rigid
   std::array<double, 3> slopes_Nm_rad{1e4, 1e4, 1e4};
-  std::array<double, 2> corners_Nm{0.0, 0.0};  ///< between the slopes
+  std::array<double, 2> corners_Nm{0.0, 0.0};  ///< torques between the slopes
   double damping_Nms_rad = 1.0;
   double static_Nm = 1.6;
   double coulomb_Nm = 0.8;
   double viscous_Nms_rad = 0.3;
-  double stribeck_rad_s = 0.0;  ///< 0: Coulomb's as soon as it moves
+  double stribeck_rad_s = 0.0;  ///< 0: Coulomb friction as soon as it moves
   double presliding_rad =
       0.0;  ///< > 0: up to so far static friction is a spring, with a damper; 0: it sticks
   double presliding_damping_Nms_rad = 0.0;
@@ -40,7 +40,7 @@ class TwoMassJoint {
   explicit TwoMassJoint(const TwoMassData& data)
       : data_(data), pending_(static_cast<std::size_t>(data.delay_periods), 0.0) {}
 
-  /// `push_Nm`: by somebody, on the link.
+  /// `push_Nm`: external torque on the link.
   void step(double torque_Nm, double push_Nm = 0.0) {
     push_Nm_ = push_Nm;
     pending_.push_back(torque_Nm);
@@ -105,7 +105,7 @@ class TwoMassJoint {
     motor_rad_ += duration_s * motor_rad_s_;
   }
 
-  // A spring that is dragged along where it is at its end.
+  // A spring whose end is dragged along at its largest deflection.
   void slide_elastically(double driving_Nm, double duration_s) {
     const double end_rad = data_.presliding_rad;
     deflection_rad_ = std::clamp(deflection_rad_ + duration_s * motor_rad_s_, -end_rad, end_rad);

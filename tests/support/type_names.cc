@@ -64,7 +64,7 @@ std::vector<std::string> types_defined_in(const std::string& source) {
   static const std::regex kHead(
       R"((?:^|[\s>])(namespace|struct|class|union|enum(?:\s+(?:class|struct))?)(?:\s+([\w:]+))?(?:\s+final)?\s*(?::[^:][^(]*)?$)");
   std::vector<std::string> types;
-  std::vector<std::string> scopes;  // "" for everything that is no named namespace
+  std::vector<std::string> scopes;  // "" for every scope that is not a named namespace
   std::string head;
   for (const char c : code_of(source)) {
     if (c == '{') {
@@ -79,7 +79,7 @@ std::vector<std::string> types_defined_in(const std::string& source) {
         qualified += scope + "::";
         named = named && !scope.empty();
       }
-      // What is defined outside of its class is the class's: two of them are alternatives, of which one is built.
+      // Types defined outside of their class are members. Two of them are alternatives, of which one is built.
       const bool is_member = name.find("::") != std::string::npos;
       if (named && !name.empty() && !is_namespace && !is_member) types.push_back(qualified + name);
       scopes.push_back(is_namespace ? name : "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The types that a tree of sources defines at namespace level, by their qualified names: two of one name are an error that no
-// compiler reports and that a linker settles by chance.
+// Finds the types that a source tree defines at namespace level. Two types of one qualified name are an error
+// that no compiler reports, and the linker chooses one of them arbitrarily.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace strainwave::testing {
 
-/// `source` without comments, literals and lines of the preprocessor.
+/// `source` without comments, literals and preprocessor lines.
 std::string code_of(const std::string& source);
 
-/// Qualified names of the classes, structs, unions and enumerations that `source` defines at namespace level, anonymous
-/// namespaces excepted.
+/// Qualified names of the classes, structs, unions and enumerations that `source` defines at namespace level,
+/// except in anonymous namespaces.
 std::vector<std::string> types_defined_in(const std::string& source);
 
 /// One sentence for each qualified name that two files under `root` define.

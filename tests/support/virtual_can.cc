@@ -64,7 +64,7 @@ class VirtualCan::Port final : public CanPort {
   CanPortOptions options_;
   std::set<std::uint32_t> ids_;
   std::deque<ReceivedFrame> queue_;
-  std::deque<std::pair<std::int64_t, ReceivedFrame>> late_;  ///< with the time at which they come back
+  std::deque<std::pair<std::int64_t, ReceivedFrame>> late_;  ///< with the time of their echo
   CanLink link_ = CanLink::kUp;
   std::uint32_t overflows_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A CAN bus in virtual time: simulated nodes on one side, the drivers' ports on the other. Nothing depends on
-// the host's clock; a port that waits lets the time pass. It can be unplugged, go down, and keep frames to itself.
+// A CAN bus in virtual time between simulated nodes and the drivers' ports. Nothing depends on the host's
+// clock; virtual time passes while a port waits. The bus can be unplugged, go down, and withhold frames.
 #pragma once
 
 #include <deque>
@@ -18,14 +18,14 @@ namespace strainwave::testing {
 
 class VirtualCan {
  public:
-  /// What happens on the bus.
+  /// One frame on the bus.
   struct Entry {
     std::int64_t time_ns;
     CanFrame frame;
     bool from_node;
   };
 
-  /// Takes a node that writes into output(): made by `make`, switched on at once.
+  /// Adds a node made by `make` that writes into output(), and switches it on.
   template <typename NodeType, typename Config>
   NodeType& add(const Config& config) {
     auto node = std::make_unique<NodeType>(config, output_);
@@ -38,24 +38,24 @@ class VirtualCan {
   /// Lets time pass to `time_ns`.
   void run_to(std::int64_t time_ns);
   std::int64_t now_ns() const { return now_ns_; }
-  /// A frame of somebody who is neither a node nor one of our ports.
+  /// Sends a frame that comes from neither a node nor one of our ports.
   void send_as_stranger(const CanFrame& frame);
-  /// An error frame of the controller.
+  /// Sends an error frame of the controller.
   void tell_trouble(CanTrouble trouble);
   void set_down();
   void set_gone();
   void set_up() { down_ = false; }
-  /// While held, what ports send waits and does not come back, as on a bus where nobody acknowledges.
+  /// While held, frames of ports wait and are not echoed, as on a bus without acknowledgement.
   void hold(bool held);
-  /// How many more frames fit while held.
+  /// Number of frames that still fit while held.
   void set_queue_room(int frames) { queue_room_ = frames; }
-  /// A port's own frames come back so late, as from an adapter on USB.
+  /// Delays the echo of a port's own frames, as an adapter on USB does.
   void set_echo_delay(std::int64_t delay_ns) { echo_delay_ns_ = delay_ns; }
-  /// The next so many own frames do not come back, though they were sent.
+  /// The next `count` own frames are sent, but not echoed.
   void lose_echoes(int count) { lost_echoes_ = count; }
-  /// The next own frame with this identifier does not come back.
+  /// The next own frame with this identifier is not echoed.
   void lose_echo_of(std::uint32_t id) { lost_echo_id_ = id; }
-  /// The kernel lost frames of every port.
+  /// Simulates that the kernel lost frames of every port.
   void lose_frames(std::uint32_t count);
 
   const std::vector<Entry>& trace() const { return trace_; }

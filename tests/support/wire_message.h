@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A message as the gateway hands it to the core, signed when a key is given.
+// A message as the gateway passes it to the core, signed if a key is given.
 #pragma once
 
 #include <algorithm>

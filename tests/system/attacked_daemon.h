@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A daemon that tracks a long move while something is done to it, and how that is judged.
-//
-// On a machine that others use it can only be judged against a run without the attack; in the virtual machine
-// (tests/vm), whose time is virtual, not one cycle may be missed.
+// A daemon that tracks a long move under an attack, and the criteria of its behaviour. On a machine with
+// other programs, it is compared with a run without the attack. In the virtual machine (tests/vm) with its
+// virtual time, it must not miss a single cycle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ class AttackedDaemon : public DaemonTest {
                                     << '\n';
   }
 
-  /// A slow joint, so that one move lasts as long as an attack; every cycle is published; signed orders only.
+  /// A slow joint, so that one move lasts as long as an attack. Every cycle is published; orders must be signed.
   void start_tracking(const DaemonStart& start = {}) {
     std::string text = configuration("", "state_rate_Hz = 1000\n");
     const auto replace = [&text](const std::string& from, const std::string& to) {
@@ -66,7 +65,7 @@ class AttackedDaemon : public DaemonTest {
     return client.wait_for_answer(message.sequence, timeout);
   }
 
-  /// Observes the loop until `done`, every 5 ms.
+  /// Observes the loop every 5 ms until `done`.
   LoopObserver::Summary observe_until(const std::function<bool()>& done) {
     LoopObserver::Summary summary;
     while (!done()) {
@@ -81,7 +80,7 @@ class AttackedDaemon : public DaemonTest {
     return observe_until([&] { return seconds_since(start) >= duration_s; });
   }
 
-  /// The same while orders come that are refused, each a line for the log.
+  /// The same under orders that are refused, each of which causes a line in the log.
   LoopObserver::Summary refuse_orders_for(double duration_s) {
     TestClient client;
     LoopObserver::Summary summary;
@@ -95,14 +94,14 @@ class AttackedDaemon : public DaemonTest {
     return summary;
   }
 
-  /// The loop went round all the time, tracking as ever.
+  /// Expects that the loop ran in every cycle, and tracked as before.
   static constexpr double kLearned_rad =
-      0.3 * kCount_rad;  ///< what a joint that learns differs from one ride to the next
+      0.3 * kCount_rad;  ///< difference between two rides of a joint that learns
   static void expect_undisturbed(const LoopObserver::Summary& attacked, const LoopObserver::Summary& calm,
                                  double duration_s) {
     EXPECT_EQ(attacked.faults, 0);
     EXPECT_FALSE(attacked.left_tracking);
-    // The rest in virtual time alone: elsewhere the loop shares the machine, without real-time priority.
+    // The rest holds only in virtual time: elsewhere the loop shares the machine, without real-time priority.
     if (!in_virtual_time()) return;
     EXPECT_EQ(attacked.records_dropped, 0);
     EXPECT_LE(attacked.worst_error_rad, calm.worst_error_rad + 2.0 * kCount_rad);
@@ -120,7 +119,7 @@ class AttackedDaemon : public DaemonTest {
         summary.worst_torque_step_Nm);
   }
 
-  /// A fresh client gives an order and is obeyed.
+  /// Expects that the daemon obeys an order of a new client.
   void expect_orders_obeyed() {
     TestClient client;
     ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();

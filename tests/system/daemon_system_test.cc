@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first complete path: the real daemon on the simulated plant, over LCM.
+// System test of the real daemon on the simulated plant, over LCM.
 #include <signal.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ TEST_F(DaemonSystem, SaysThatAMessageIsOfAnotherVersion) {
   ASSERT_TRUE(client_->wait_for_timing());
   const std::int64_t rejected = client_->timing()->rejects[static_cast<int>(Reason::kMalformed)];
   std::vector<std::uint8_t> older = encode(client_->make_setpoint("elbow", 0.1));
-  ++older[0];  // of its type's fingerprint
+  ++older[0];  // changes the type's fingerprint
   ASSERT_EQ(
       client_->lcm().publish("SW.elbow.SETPOINT", older.data(), static_cast<unsigned int>(older.size())), 0);
   ASSERT_TRUE(client_->wait_for_timing());

@@ -12,7 +12,7 @@ namespace {
 class DaemonHoming : public DaemonTest {};
 
 TEST_F(DaemonHoming, MustComeFirstAndMakesPositionsTrue) {
-  // The joint stands at 0.4 and its encoder counts from there; the home switch is from 0.2 to 0.25.
+  // The joint is at 0.4, where its encoder begins to count. The home switch is from 0.2 to 0.25.
   DaemonProcess daemon(folder_,
                        configuration("[joint.homing]\nto = \"home\"\nrequired = true\nposition_rad = 0.25\n"
                                      "speed_rad_s = 0.1\n"
@@ -33,7 +33,7 @@ TEST_F(DaemonHoming, MustComeFirstAndMakesPositionsTrue) {
   ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHoming)) << daemon.log();
   ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHolding, std::chrono::seconds(30))) << daemon.log();
   EXPECT_EQ(client.state("elbow")->notices & static_cast<int>(Notice::kNotHomed), 0);
-  // It rests a little above the edge that it left upwards.
+  // It rests a little above the edge, which it left upwards.
   EXPECT_NEAR(client.state("elbow")->joint_position_rad, 0.25, 0.01);
   EXPECT_TRUE(client.move("elbow", 0.3).accepted);
 }

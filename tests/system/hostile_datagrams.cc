@@ -25,8 +25,8 @@ constexpr std::uint32_t kShortMagic = 0x4c433032;
 constexpr std::uint32_t kFragmentMagic = 0x4c433033;
 constexpr std::size_t kLargestDatagram = 65507;
 constexpr std::uint16_t kPort = 7667;
-/// One in so many begins a pair of fragments that crashes LCM's library. Clients of the tests are spared: it looks only at
-/// fragments of channels that it listens to.
+/// One in this number begins a pair of fragments that crashes LCM's library. The tests' clients are safe: the
+/// library looks only at fragments of channels with a subscriber.
 constexpr std::uint64_t kCrashEvery = 100;
 
 sockaddr_in address_of(const char* host) {
@@ -88,7 +88,7 @@ void HostileDatagrams::fragment() {
   put_u32(kFragmentMagic);
   put_u32(random_() % 2 == 0 ? sequence_ : ++sequence_);
   put_u32(some_size());
-  // An offset within reason: what lies beyond crashes, and has its own turn.
+  // A small offset: larger ones crash LCM's library, and crashing_fragment() has them.
   put_u32(static_cast<std::uint32_t>(random_() % 3000));
   put_u16(static_cast<std::uint16_t>(random_() % 4));
   put_u16(random_() % 2 == 0 ? static_cast<std::uint16_t>(random_() % 4)
@@ -97,8 +97,8 @@ void HostileDatagrams::fragment() {
   put_random(random_() % 1400);
 }
 
-// LCM 1.3.1 adds offset and size in 32 bits: the sum wraps, and it copies 4 GiB beyond its buffer. The second one comes with the
-// next call.
+// LCM 1.3.1 adds offset and size in 32 bits. The sum wraps, and LCM copies 4 GiB beyond its buffer. The next
+// call returns the second fragment.
 void HostileDatagrams::crashing_fragment() {
   const std::vector<Bytes> pair = crashing_fragments("SW.elbow.COMMAND", ++sequence_);
   bytes_ = pair[0];
@@ -123,7 +123,7 @@ void HostileDatagrams::order_with_random_fields() {
       order = encode(gain_table_v1{});
       break;
   }
-  // A stop (action 2) is everybody's right; a random action is one in four thousand million.
+  // Any client may send a stop (action 2). A random action is a stop once in four thousand million.
   for (std::size_t i = 8; i < order.size(); ++i) order[i] = static_cast<std::uint8_t>(random_());
   bytes_.insert(bytes_.end(), order.begin(), order.end());
 }

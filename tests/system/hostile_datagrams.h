@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams that nobody should have to survive: what an attacker on this machine can send to LCM's port. Reproducible.
+// Hostile datagrams that an attacker on this machine can send to LCM's port. Reproducible.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ class HostileDatagrams {
  public:
   explicit HostileDatagrams(std::uint64_t seed) : random_(seed) {}
 
-  /// The next one: malformed, truncated, oversized, a fragment that lies, or a sound LCM packet on one of the daemon's
-  /// channels with a hostile content. Up to 65507 bytes.
+  /// The next one: malformed, truncated, oversized, a fragment with a false header, or a correct LCM packet
+  /// with hostile content on one of the daemon's channels. Up to 65507 bytes.
   const std::vector<std::uint8_t>& next();
 
  private:
@@ -34,11 +34,11 @@ class HostileDatagrams {
   std::mt19937_64 random_;
   std::uint32_t sequence_ = 0;
   std::vector<std::uint8_t> bytes_;
-  std::vector<std::uint8_t> second_;  ///< of a pair that has begun
+  std::vector<std::uint8_t> second_;  ///< second one of a pair
 };
 
-/// Sends `count` of them to LCM's usual group and port, at most `per_s` a second on the average, half to the group and
-/// half to this host's own address. Returns how many the system took.
+/// Sends `count` of them to LCM's usual group and port, at most `per_s` per second on average, half to the
+/// group and half to this host's own address. Returns the number of datagrams that the system accepted.
 std::int64_t send_hostile_datagrams(std::int64_t count, std::uint64_t seed, double per_s);
 
 }  // namespace strainwave::testing

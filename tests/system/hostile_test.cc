@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The daemon under attack: the loop must not notice, whatever becomes of the gateway.
+// The daemon under attack: the loop must not be disturbed, whatever happens to the gateway.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -24,7 +24,7 @@ using HostileSystem = AttackedDaemon;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Of two seconds, unless $STRAINWAVE_HOSTILE_DATAGRAMS says otherwise.
+/// Datagrams of two seconds, unless $STRAINWAVE_HOSTILE_DATAGRAMS is set.
 std::int64_t datagrams() {
   const char* text =
       std::getenv("STRAINWAVE_HOSTILE_DATAGRAMS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
@@ -33,7 +33,7 @@ std::int64_t datagrams() {
 
 constexpr double kDatagramsPer_s = 50'000.0;
 
-/// A child that sends the datagrams while the parent observes.
+/// A child process that sends the datagrams while the parent observes.
 class Attacker {
  public:
   explicit Attacker(std::uint64_t seed) : pid_(::fork()) {
@@ -59,7 +59,7 @@ class Attacker {
 };
 
 TEST_F(HostileSystem, HostileDatagramsDisturbNeitherTheLoopNorItsTorque) {
-  // The same part of the same move, without and with the attack.
+  // The same part of the same move is observed without and with the attack.
   const double duration_s = static_cast<double>(datagrams()) / kDatagramsPer_s;
   start_tracking();
   const LoopObserver::Summary calm = observe_for(duration_s);
@@ -88,7 +88,7 @@ TEST_F(HostileSystem, HostileDatagramsDisturbNeitherTheLoopNorItsTorque) {
   for (const std::int64_t count : client.timing()->rejects) refused += count;
   std::printf("%lld messages reached the core and were refused\n", static_cast<long long>(refused));
   EXPECT_GT(refused, 1000) << "the attack did not get through to the core: it proves nothing";
-  // One line for each refusal would fill a disk.
+  // One line for every refusal would fill a disk.
   const std::string log = daemon_->log();
   EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 200);
 }
@@ -104,7 +104,7 @@ TEST_F(HostileSystem, AKilledGatewayIsBackWithinASecondEachTimeAndIsObeyed) {
     watch.look();
     if (watch.restarts() == kKills) return true;
     const pid_t gateway = daemon_->gateway_pid();
-    // Each new one once: it is let to work first.
+    // Each new gateway is killed once, after some time to work.
     if (gateway > 0 && seconds_since(killed) > 1.5) {
       if (watch.restarts() > 0) std::printf("back after %.3f s\n", watch.last_absence_s());
       ::kill(gateway, SIGKILL);
@@ -156,7 +156,7 @@ TEST_F(HostileSystem, ALogThatNobodyReadsKeepsNoOrderBack) {
   const LoopObserver::Summary attacked = refuse_orders_for(3.0);
   expect_undisturbed(attacked, calm, 3.0);
   expect_orders_obeyed();
-  // Once somebody reads, the log says that there was more.
+  // Once the log is read, it reports the lost lines.
   std::string text(1 << 20, '\0');
   ASSERT_GT(::read(pipe[0], text.data(), text.size()), 0);
   daemon_->signal(SIGTERM);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Identification on site, from the plan to the better table, in virtual time: the daemon's loop on a
-// simulated joint whose friction is 30 % off the catalogue runs the client's plan, the log is fitted, a table
-// is designed, and the joint tracks with it as well as with a table that was designed for its true friction.
+// Identification on site, from the plan to the improved table, in virtual time. The daemon's loop runs the
+// client's plan on a simulated joint whose friction is 30 % off the catalogue. The log is fitted, and a table
+// is designed. With it, the joint must track as well as with a table for its true friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ namespace strainwave::testing {
 namespace {
 
 constexpr double kFrictionScale = 1.3;
-constexpr std::int64_t kStateEvery = 5;  // cycles: 200 Hz
+constexpr std::int64_t kStateEvery = 5;  // cycles, which gives 200 Hz
 
-/// Friction in units of the catalogue's; what static friction has above Coulomb's by itself.
+/// Friction relative to the catalogue's. `breakaway` scales the excess of static over Coulomb friction.
 struct Scales {
   double breakaway = kFrictionScale;
   double coulomb = kFrictionScale;
@@ -56,7 +56,7 @@ limits_v1 limits_of(const BenchJoint& joint) {
   return limits;
 }
 
-/// To `target_rad` and until the reference is there; what is seen at 200 Hz goes to `samples`.
+/// Moves to `target_rad` until the setpoint is there. Records samples at 200 Hz in `samples`.
 void leg(JointBench& bench, double target_rad, double speed_rad_s, std::vector<MotionSample>& samples) {
   Order order;
   order.kind = OrderKind::kSetpoint;
@@ -116,8 +116,8 @@ GainTable table_for(const FuzzyFriction& friction) {
   return design_table(Controller::kC4, request);
 }
 
-/// Root of the mean squared distance between the joint and where it should be read in the same period, over moves there and back of several
-/// lengths.
+/// RMS distance between the position and the setpoint of the same period, over moves of several lengths,
+/// there and back.
 double tracking_error_rad(const GainTable& table, double temperature_C) {
   JointBench bench({joint_at(temperature_C)});
   bench.joint(0).table_slot(0) = {table, 1};
@@ -197,7 +197,7 @@ TEST(Identification, ItsIntervalsHoldTheFrictionOfJointsDrawnAtRandom) {
     held_static += off.back() <= 1.0 ? 1 : 0;
     held_coulomb += in_half_widths(fit.coulomb_Nm, truth.coulomb_Nm) <= 1.0 ? 1 : 0;
     held_viscous += in_half_widths(fit.viscous_Nms_rad, truth.viscous_Nms_rad) <= 1.0 ? 1 : 0;
-    // An interval that holds everything says nothing.
+    // A very wide interval would hold every value.
     EXPECT_LT(fit.static_Nm.half_width, 0.5 * truth.static_Nm) << i;
     EXPECT_LT(fit.coulomb_Nm.half_width, 0.05 * truth.coulomb_Nm) << i;
   }

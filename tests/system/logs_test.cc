@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs of the running daemon: recorded, exported, played back; and what a plain replay comes to. The client
-// and LCM's own tools are run as programs.
+// Logs of the running daemon are recorded, exported and played back, or replayed without new signatures. The
+// client and LCM's own tools run as programs.
 #include <signal.h>
 #include <sys/wait.h>
 
@@ -28,7 +28,7 @@ class Logs : public DaemonTest {
     ASSERT_EQ(shell("cp " + path("key.pub") + " " + path("authorized_keys")), 0);
     start();
   }
-  /// The daemon obeys signed orders only.
+  /// Starts a daemon that obeys signed orders only.
   void start() {
     daemon_.reset();
     std::string text = configuration();
@@ -53,7 +53,7 @@ class Logs : public DaemonTest {
   int ctl(const std::string& arguments) {
     return shell(kControl + ("--key " + path("key") + " ") + arguments);
   }
-  /// Records while `commands` (of ctl, each with its key) run.
+  /// Records while `commands` of strainwavectl run, each with its key.
   void record(const std::string& file, const std::vector<std::string>& commands) {
     std::string script = std::string(kControl) + "record --out " + path(file) + " & recorder=$!; sleep 0.5; ";
     for (const std::string& command : commands)
@@ -130,7 +130,7 @@ TEST_F(Logs, APlainReplayIsRefusedByALaterDaemon) {
 
 TEST_F(Logs, PlayMovesTheJointAgainWithAKeyAndNotWithout) {
   record("a.lcm", {"move elbow 0.1 --wait", "move elbow 0.2 --wait"});
-  start();  // also on another day
+  start();  // a later session of the daemon
   EXPECT_EQ(shell(std::string(kControl) + "play " + path("a.lcm") + " --joint elbow"), 2) << output_;
   EXPECT_NEAR(position_rad(), 0.0, 1e-3);
   EXPECT_EQ(ctl("play " + path("a.lcm") + " --joint elbow"), 0) << output_;
@@ -153,7 +153,7 @@ TEST_F(Logs, PlaySendsTheVelocitiesAccelerationsAndLoadsOfARecordedStream) {
     sample.torque_Nm = -0.25;
     sample.load_inertia_kgm2 = 0.015625;
     sample.derivatives = 2;
-    sample.at_cycle = 1'000'000'000;  // of the session that it was recorded in
+    sample.at_cycle = 1'000'000'000;  // of the session of the recording
     log.add(1'000'000 + 20'000 * i, "SW.elbow.SETPOINT", sample);
   }
   record("a.lcm", {"play " + path("stream.lcm") + " --joint elbow"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the loop and its gateway do, read from the daemon's own shared memory, every cycle: LCM is what is attacked.
+// Observes the loop and its gateway in every cycle through the daemon's shared memory, because LCM is under attack.
 #pragma once
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The daemon's memory file of this name, mapped for reading.
+/// The daemon's memory file with this name, mapped for reading.
 inline MemoryFile open_memory(pid_t daemon, const std::string& name, std::size_t size) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(daemon) + "/fd")) {
     std::error_code error;
@@ -42,11 +42,11 @@ class LoopObserver {
     cursor_ = memory().states.written();
   }
 
-  /// What the loop did since the last call.
+  /// Behaviour of the loop since the last call.
   struct Summary {
     std::int64_t cycles = 0;           ///< seen
-    std::int64_t cycles_missed = 0;    ///< numbers left out: overruns
-    std::int64_t records_dropped = 0;  ///< this observer was too slow
+    std::int64_t cycles_missed = 0;    ///< missing numbers: overruns
+    std::int64_t records_dropped = 0;  ///< because this observer was too slow
     std::int64_t faults = 0;
     double worst_error_rad = 0.0;
     double error_squares = 0.0;
@@ -90,8 +90,8 @@ class LoopObserver {
   double last_torque_Nm_ = 0.0;
 };
 
-/// How often the gateway was away and for how long at most: until the next one does its work, not until it
-/// exists. To be asked often.
+/// Counts and times the gateway's absences. An absence ends when the next gateway works, not when it exists.
+/// look() must be called often.
 class GatewayWatch {
  public:
   explicit GatewayWatch(const DaemonProcess& daemon)

@@ -36,7 +36,7 @@ class DaemonPaths : public DaemonTest {
     for (const std::string& name : kNames) ASSERT_TRUE(client_.wait_for_mode(name, Mode::kHolding));
   }
   static double way_rad(std::size_t joint) { return 0.1 * static_cast<double>(joint + 1); }
-  /// To way_rad() in 1 s, in `knots` knots of one cubic.
+  /// Path to way_rad() in 1 s, with `knots` knots of one cubic.
   path_v1 part(std::size_t joint, int knots = 3) {
     const setpoint_v1 envelope = client_.make_setpoint(kNames[joint], 0.0);
     path_v1 message{};
@@ -55,7 +55,7 @@ class DaemonPaths : public DaemonTest {
     }
     return message;
   }
-  /// As many knots as a message has room for, of every joint.
+  /// Loads the path of every joint, with as many knots as fit into a message.
   void load_all() {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       const Answer answer =
@@ -63,7 +63,7 @@ class DaemonPaths : public DaemonTest {
       ASSERT_TRUE(answer.accepted) << kNames[i] << ": " << answer.text;
     }
   }
-  /// Largest difference of the shares of their ways that two joints had behind them in one cycle.
+  /// Largest difference in one cycle between two joints' shares of their ways.
   double disagreement() {
     std::map<std::int64_t, std::pair<double, double>> shares;
     for (std::size_t i = 0; i < kNames.size(); ++i)
@@ -100,7 +100,7 @@ TEST_F(DaemonPaths, LeavePauseAndArriveInOneCycle) {
     ASSERT_TRUE(client_.wait_for_mode(name, Mode::kHolding)) << daemon_->log();
   for (std::size_t i = 0; i < kNames.size(); ++i)
     EXPECT_NEAR(client_.state(kNames[i])->joint_position_rad, way_rad(i), 5e-4) << kNames[i];
-  // Where the loop may miss periods the limits may take the setpoints off the path while they catch up.
+  // If the loop misses periods, the limits may take the setpoints off the path until they catch up.
   std::printf("setpoints disagree by %.1e of their ways\n", disagreement());
   if (in_virtual_time()) {
     EXPECT_LT(disagreement(), 1e-5);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The real-time thread of the running daemon, measured while everything happens to it that may: commands,
-// setpoints and streams, table swaps, refused orders, faults and their clearing. For the virtual machine of
-// tests/vm: it needs SCHED_FIFO, and strace.
+// Measures the real-time thread of the running daemon under every kind of use: commands, setpoints and
+// streams, table swaps, refused orders, faults and their clearing. For the virtual machine of tests/vm,
+// because it needs SCHED_FIFO and strace.
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -22,9 +22,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
-constexpr seconds kWatched{20};  ///< some thirty rounds of all that an operator may do
+constexpr seconds kWatched{20};  ///< a few rounds of every kind of use
 
-/// The counts of loop_trap.cc, shared with the daemon by a file.
+/// The counts of loop_trap.cc, which the daemon shares through a file.
 class LoopTrap {
  public:
   explicit LoopTrap(const std::filesystem::path& path) {
@@ -71,7 +71,7 @@ class PureLoop : public DaemonTest {
     client_.pump(milliseconds(300));  // the stream expires, the joint holds
   }
 
-  /// One round of everything: about 6 s.
+  /// One round of every kind of use, about 6 s.
   void live_through_a_round(int round) {
     ASSERT_TRUE(client_.command("elbow", Action::kEnable).accepted) << daemon_->log();
     ASSERT_TRUE(client_.wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
@@ -95,7 +95,7 @@ class PureLoop : public DaemonTest {
     ASSERT_TRUE(client_.wait_for_mode("elbow", Mode::kOff));
   }
 
-  /// The task of the daemon with SCHED_FIFO; there is one.
+  /// The daemon's only task with SCHED_FIFO.
   pid_t loop_task() const {
     for (const auto& task :
          std::filesystem::directory_iterator("/proc/" + std::to_string(daemon_->pid()) + "/task")) {

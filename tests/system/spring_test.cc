@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running daemon on a simulated joint with a spring, over LCM, every cycle's state: it does what `strainwave-sim` finds. For the
-// virtual machine of tests/vm.
+// The running daemon on a simulated joint with a spring, over LCM, with the state of every cycle. It must
+// behave as `strainwave-sim` predicts. For the virtual machine of tests/vm.
 #include <algorithm>
 #include <cmath>
 
@@ -17,14 +17,14 @@ using std::chrono::milliseconds;
 constexpr double kCounted_rad = 40e-6;  // two counts of the motor's encoder
 constexpr int kSamples = 2000;
 
-/// A link on the gear of size 17 with a fine encoder of its own: a plant file.
+/// A plant file: a link with a fine encoder of its own on the gear of size 17.
 std::string plant_with_a_link(double link_kgm2, double damping_Nms_rad) {
   return "gear = \"csf-17-50\"\n[link]\ninertia_kgm2 = " + std::to_string(link_kgm2) +
          "\n[spring]\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) +
          "\n[link_encoder]\ncounts_per_joint_revolution = 1e8\n";
 }
 
-/// What is compared: of the link, and of the torque.
+/// The compared figures of the link and of the torque.
 struct Figures {
   double link_pi2 = 0.0;  ///< sum of |e / r| above 40 urad
   double overshoot_rad = 0.0;
@@ -44,7 +44,7 @@ class DaemonOnASpring : public DaemonTest {
     if (!in_virtual_time()) GTEST_SKIP() << "for the virtual machine: ctest -L vm";
   }
 
-  /// A daemon that says every cycle; `model` are lines of its joint, `limits` and `drive` of those sections.
+  /// A daemon that publishes every cycle. `model` has lines of its joint, `limits` and `drive` those of these sections.
   static std::string configured(const std::string& model, const std::string& limits,
                                 const std::string& drive) {
     return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
@@ -67,10 +67,10 @@ class DaemonOnASpring : public DaemonTest {
     client_->forget_states();
     ASSERT_TRUE(client_->command("elbow", Action::kEnable).accepted) << daemon_->log();
     ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-    client_->pump(milliseconds(3000));  // the temperature must have been good for a while
+    client_->pump(milliseconds(3000));  // the temperature must have been valid for some time
   }
 
-  /// Every state from the first of a move's on.
+  /// Every state of a move, from the first one on.
   std::vector<state_v1> states_of_a_move(double step_rad) {
     client_->forget_states();
     EXPECT_TRUE(client_->move("elbow", step_rad).accepted) << daemon_->log();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sine of 0.5 rad and 0.5 Hz streamed to the running daemon over LCM, on a link on a spring, with what a network does to it; every cycle's
-// state. For the virtual machine of tests/vm.
+// Streams a sine of 0.5 rad and 0.5 Hz to the running daemon over LCM, on a link with a spring and with a
+// network's defects. Checks the state of every cycle. For the virtual machine of tests/vm.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,14 +18,14 @@ using std::chrono::milliseconds;
 
 constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr double kAmplitude_rad = 0.5;
-// Cycles that a sample is stamped ahead: the longest interval, the controller's lead, and the way.
+// Cycles by which a sample is stamped ahead: the longest interval, the controller's lead, and the transmission time.
 constexpr std::int64_t kAhead = 60;
 constexpr std::int64_t kBegin = 500;
 constexpr std::int64_t kEnd = 2500;  // one whole period of the sine
 
 struct Ride {
   double rms_torque_Nm = 0.0;
-  double rms_error_rad = 0.0;  ///< of the position in a cycle, from the sine in that cycle
+  double rms_error_rad = 0.0;  ///< of the position from the sine in the same cycle
   double largest_error_rad = 0.0;
   double largest_step_Nm = 0.0;
   std::int64_t cycles = 0;
@@ -43,7 +43,7 @@ class DaemonStreams : public DaemonTest {
     ASSERT_TRUE(loaded.accepted) << loaded.text;
     ASSERT_TRUE(client_->command("elbow", Action::kEnable).accepted) << daemon_->log();
     ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-    client_->pump(milliseconds(3000));  // the temperature must have been good for a while
+    client_->pump(milliseconds(3000));  // the temperature must have been valid for some time
   }
 
   static constexpr const char* kJoint =
@@ -54,7 +54,7 @@ class DaemonStreams : public DaemonTest {
       "acceleration_rad_s2 = 150\nfollowing_error_rad = 0.1\ntorque_limit_Nm = 34\n"
       "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n";
 
-  /// A sample every `every` cycles, of which the network loses, doubles and reorders a tenth each and has gaps of 30 ms if it is `bad`.
+  /// A sample every `every` cycles. A `bad` network loses, doubles and reorders a tenth each, and has gaps of 30 ms.
   Ride ride(std::int64_t every, int derivatives, bool bad) {
     EXPECT_TRUE(client_->move("elbow", 0.0).accepted);
     client_->pump(milliseconds(700));
@@ -110,7 +110,7 @@ class DaemonStreams : public DaemonTest {
       result.rms_torque_Nm += state.torque_commanded_Nm * state.torque_commanded_Nm;
       result.rms_error_rad += error_rad * error_rad;
       result.largest_error_rad = std::max(result.largest_error_rad, std::abs(error_rad));
-      // Where the joint turns round, friction changes its sign.
+      // At a reversal of the joint, friction changes its sign.
       if (last != nullptr && std::abs(state.setpoint_velocity_rad_s) > 0.3)
         result.largest_step_Nm =
             std::max(result.largest_step_Nm, std::abs(state.torque_commanded_Nm - last->torque_commanded_Nm));
@@ -121,8 +121,8 @@ class DaemonStreams : public DaemonTest {
     return result;
   }
 
-  /// Positions alone, 20 a second, each for when its sender, by a clock of its own, sends it: up to 2 ms later than planned.
-  /// It plans from the answer to its first on.
+  /// Positions only, 20 per second. Each is stamped by the sender's own clock when it is sent, up to 2 ms
+  /// later than planned. The plan begins with the answer to the first one.
   enum class Harm { kNone, kOneLost, kAll };
   Ride ride_by_senders_clock(Harm harm) {
     constexpr int kInterval_us = 50'000;
@@ -170,7 +170,7 @@ class DaemonStreams : public DaemonTest {
     return judge_setpoint();
   }
 
-  /// Of the setpoint from the sine at that lag, near the play-out delay, that leaves least.
+  /// Errors of the setpoint from the sine, at the lag near the play-out delay that makes them smallest.
   Ride judge_setpoint() {
     Ride best;
     best.largest_error_rad = kAmplitude_rad;
@@ -209,7 +209,7 @@ TEST_F(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes)
                 1e3 * one.rms_error_rad, 1e3 * one.largest_error_rad);
   };
   print("200 Hz with velocity", smooth);
-  // Of every rate with and without velocities, StreamedSines; here, what the way to the loop could spoil.
+  // StreamedSines tests every rate with and without velocities. This tests effects of the way to the loop.
   for (const auto& [every, derivatives] : {std::pair{50, 0}, std::pair{2, 0}}) {
     const Ride streamed = ride(every, derivatives, false);
     print(("every " + std::to_string(every) + " ms, derivatives " + std::to_string(derivatives)).c_str(),

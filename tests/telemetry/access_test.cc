@@ -43,7 +43,7 @@ TEST(Access, WithoutATokenIsNotForForeignPages) {
   EXPECT_FALSE(granted({"/", "", "http://localhost:8080", "localhost:8765"}))
       << "another server of this machine";
   EXPECT_FALSE(granted({"/", "", "http://evil.example:8765", "evil.example:8765"}));
-  // A page that gives its own name this machine's address.
+  // An attacker's page maps its own host name to this machine's address (DNS rebinding).
   for (const char* host :
        {"evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "", "[", "10.0.0.1"})
     EXPECT_FALSE(granted({"/metrics", "", "", host})) << host;

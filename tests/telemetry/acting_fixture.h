@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pages that order joints "elbow" and "knee" of a fleet, and what is sent for them.
+// Pages that order the joints "elbow" and "knee" of a fleet, and the messages sent for them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class ActingTest : public ::testing::Test {
       acting_.tick(now_s_);
     }
   }
-  /// The daemon's answer to the latest message.
+  /// Delivers the daemon's answer to the latest message.
   void acknowledge(Reason reason = Reason::kAccepted) {
     ack_v1 ack{};
     visit_latest([&](const auto& message) {
@@ -74,7 +74,7 @@ class ActingTest : public ::testing::Test {
     return found;
   }
   bool signed_by_key(const Sent& sent) const { return verify(sent.channel, key_, sent.bytes); }
-  /// The last text that `page` got; empty: none.
+  /// Returns the last text sent to `page`, or nothing.
   Json said(const Acting::Page& page) const;
   void begin_jog(const Acting::Page& page, int number = 1);
 

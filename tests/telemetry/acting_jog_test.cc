@@ -26,7 +26,7 @@ TEST_F(ActingTest, JogsOnlyAsLongAsThePageGoesOnAskingThenHolds) {
   tick(Acting::kJogLasts_s + 2.0 * Acting::kTick_s);
   EXPECT_EQ(actions(), std::vector{Action::kHold});
   const std::size_t sent = setpoints().size();
-  take(kTab, jog(1, 0.2));  // what was delayed on its way
+  take(kTab, jog(1, 0.2));  // a delayed message of the ended jog
   tick(0.2);
   EXPECT_EQ(setpoints().size(), sent) << "an ended jog does not begin again";
 }
@@ -105,7 +105,7 @@ TEST_F(ActingTest, EndsAJogAfterItsOwnPauseAndCatchesNothingUp) {
   EXPECT_LE(setpoints().back().position_rad, before_rad + 0.2 * 2.0 * Acting::kTick_s + 1e-12);
   now_s_ += 1.1 * Acting::kJogLasts_s;
   sent_.clear();
-  take(kTab, jog(1, 0.2));  // it waited while nothing was done here
+  take(kTab, jog(1, 0.2));  // the message waited while the program paused
   acting_.tick(now_s_);
   EXPECT_TRUE(setpoints().empty());
   EXPECT_EQ(actions(), std::vector{Action::kHold});

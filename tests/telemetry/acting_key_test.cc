@@ -9,7 +9,7 @@
 namespace strainwave {
 namespace {
 
-/// The token of a page that acts with this key.
+/// Returns the token of a page that uses this key.
 std::string token_with(const std::filesystem::path& key) {
   const Fleet fleet{};
   const Acting acting(

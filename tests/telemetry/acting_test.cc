@@ -92,7 +92,7 @@ TEST_F(ActingTest, SendsNoOrderAgainThatAStopOvertook) {
     take(kTab, {{"action", "stop"}});
     sent_.clear();
     sent_.push_back(overtaken);
-    acknowledge(Reason::kOldSequence);  // upon which what waits is sent anew
+    acknowledge(Reason::kOldSequence);  // a refusal that makes the program resend pending orders
     tick(0.1);
     EXPECT_EQ(sent_.size(), 1U) << asked;
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Programs that run beside a test, in a folder of their own, until it ends."""
+"""Starts programs in a temporary folder and ends them with the test."""
 import os
 import pathlib
 import subprocess
@@ -22,7 +22,7 @@ class Beside:
         return self
 
     def start(self, program, *words):
-        """One of ours, or one of the system."""
+        """Starts a program of ours or of the system."""
         ours = self.programs / program
         self.running.append(subprocess.Popen([ours if ours.exists() else program, *words], stdout=subprocess.PIPE, text=True, cwd=self.folder,
                                              env=dict(os.environ, RUNTIME_DIRECTORY=self.temporary.name)))

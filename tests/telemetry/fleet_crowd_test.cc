@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who is shown when more names are heard than there is room for.
+// The names that are shown when more names are heard than there are places.
 #include <gtest/gtest.h>
 
 #include "telemetry/fleet.h"

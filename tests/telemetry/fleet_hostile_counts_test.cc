@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What no loop says, but somebody on the network may: counts below zero, and counts too large to be summed.
+// Counts below zero and counts too large to add up. No real loop sends them, but an attacker may.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -35,7 +35,7 @@ std::string page_of(const Fleet& fleet, double now_s = kNow_s) {
   return std::move(page).text();
 }
 
-/// The value of the sample that begins with `name`; NaN when there is none.
+/// Returns the value of the sample with this `name`, or NaN.
 double sample(const std::string& page, const std::string& name) {
   const std::size_t found = page.find("\n" + name + " ");
   return found == std::string::npos ? std::nan("") : std::stod(page.substr(found + name.size() + 2));
@@ -122,7 +122,7 @@ TEST(DaemonMetrics, HaveHistogramsThatOnlyRiseAndCountEverything) {
   EXPECT_EQ(count_before, static_cast<double>(all));
   EXPECT_EQ(sample(page, R"(strainwave_wakeup_latency_seconds_count{prefix="SW"})"),
             static_cast<double>(all));
-  // Buckets 0 to 20 lie below 32 us.
+  // Buckets 0 to 20 are below 32 us.
   EXPECT_EQ(sample(page, R"(strainwave_wakeup_latency_seconds_bucket{prefix="SW",le="3.2e-05"})"),
             21.0 * 22.0 / 2.0);
   EXPECT_EQ(page.find("position_delay"), std::string::npos) << "no drive measures it";
@@ -148,7 +148,7 @@ std::set<std::string> names_in(const std::string& file, const std::string& patte
   return names;
 }
 
-/// Every metric of joints and daemons, as HELP lines of a page on which everything is known.
+/// The names of all metrics of joints and daemons, from the HELP lines of a page with every value known.
 std::set<std::string> shown_names() {
   Fleet fleet;
   state_v1 state{};

@@ -11,7 +11,7 @@ namespace {
 constexpr JogLimits kLimits{-1.0, 2.0, 0.4, 1.5};
 constexpr double kStep_s = 0.02;
 
-/// Steps for `seconds`, and expects every step within the limits.
+/// Steps for `seconds` and expects every step within the limits.
 void run(JogMotion& jog, double wanted_rad_s, double seconds) {
   for (double t_s = 0.0; t_s < seconds; t_s += kStep_s) {
     const double before_rad = jog.position_rad();
@@ -21,7 +21,7 @@ void run(JogMotion& jog, double wanted_rad_s, double seconds) {
     ASSERT_LE(jog.position_rad(), kLimits.position_max_rad);
     ASSERT_LE(std::abs(jog.velocity_rad_s()), kLimits.speed_rad_s);
     ASSERT_LE(std::abs(jog.position_rad() - before_rad), kLimits.speed_rad_s * kStep_s * (1.0 + 1e-9));
-    // Towards the end of the range a step may brake by a little more than its share.
+    // Near the end of the range a step may brake harder than the acceleration limit.
     ASSERT_LE(std::abs(jog.velocity_rad_s() - before_rad_s), 3.0 * kLimits.acceleration_rad_s2 * kStep_s);
   }
 }

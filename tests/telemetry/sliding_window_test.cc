@@ -18,7 +18,7 @@ TEST(RecentPeak, IsSeenForAMinuteAndNotForTwo) {
 TEST(RecentPeak, ForgetsWhatWasInASlotBefore) {
   RecentPeak peak;
   peak.take(3.0, 0.0);
-  // The same place, one turn later.
+  // Uses the same slot one turn later.
   peak.take(1.0, 70.0);
   EXPECT_EQ(peak.amount(70.0), 1.0);
 }

@@ -48,7 +48,7 @@ TEST(Topics, AreNotMadeFasterThanViewersCanBeToldOfThem) {
       ++added;
   EXPECT_GE(added, static_cast<int>(Topics::kMax));
   EXPECT_LE(added, static_cast<int>(Topics::kMax) + static_cast<int>(kLasts_s * Topics::kNewPerSecond) + 1);
-  // Somebody else's is among them soon, in the middle of it.
+  // A topic of another source must soon get a place, even during the flood.
   const Topic* own = nullptr;
   for (int i = 0; i < 5000 && own == nullptr; ++i) {
     const double now_s = kLasts_s + 0.001 * i;

@@ -16,7 +16,7 @@ class ViewerTest : public ::testing::Test {
       : elbow_(topics_.add("SW.elbow.STATE", "strainwave.state_v1", R"({"type":"object"})", 0.0)->id),
         timing_(topics_.add("SW.TIMING", "strainwave.timing_v1", "{}", 0.0)->id) {}
 
-  /// The answer's message, or "" when there is no answer.
+  /// Returns the message of the answer, or "" without an answer.
   std::string answer(const std::string& text) {
     const auto answer = viewer_.take(text, topics_, 0.0);
     if (!answer) return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is read ahead of its owner. In a network of its own.
+// Reads datagrams ahead while the owner is busy. Runs in a private network.
 #include "transport/lcm_read_ahead.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ bool is_readable(int descriptor, int timeout_ms) {
   return ::poll(&readable, 1, timeout_ms) == 1;
 }
 
-/// Until nothing waits before the socket any more.
+/// Waits until the socket's queue is empty.
 void wait_until_read(const LcmSocket& socket) {
   constexpr int kPatience_ms = 10'000;
   int waiting = 0;

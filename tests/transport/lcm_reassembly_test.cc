@@ -132,7 +132,7 @@ TEST(LcmReassembly, LetsNoHostPushOutTheMessageOfAnother) {
   const std::vector<Bytes> sound = fragments(kChannel, pattern(8000), 1000);
   for (const Bytes& fragment : sound) {
     receiver.take(kSender, fragment);
-    // All ports, and all addresses of this machine.
+    // Many ports and addresses of this machine.
     for (std::uint32_t i = 0; i < 5000; ++i)
       receiver.take({kThisMachine + i * 13, static_cast<std::uint16_t>(i)},
                     fragment_datagram({i, 2000, 1000, 1, 2}, pattern(10)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Our receiver with LCM's own library as the sender, and what its socket keeps away. In a network of its own.
+// Our receiver with LCM's own library as the sender, and the datagrams that its socket rejects. Runs in a private network.
 #include "transport/lcm_socket.h"
 
 #include <arpa/inet.h>
@@ -48,7 +48,7 @@ class LcmReceiver {
   LcmReassembly reassembly_;
 };
 
-/// A plain datagram to `host`, the port of this test.
+/// Sends a datagram to the port of this test on `host`.
 void send_to(const char* host, const Bytes& datagram) {
   const int sender = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -61,7 +61,7 @@ void send_to(const char* host, const Bytes& datagram) {
   ::close(sender);
 }
 
-// LCM sends what fits in one datagram as a short message, and longer ones in fragments of 65487 bytes.
+// LCM sends a message that fits in one datagram as a short message, and longer ones in fragments of 65487 bytes.
 TEST(LcmSocket, UnderstandsWhatLcmsLibrarySendsFrom0BytesTo300kB) {
   LcmReceiver receiver(300'000, kAnyDatagram);
   lcm::LCM sender(own_url());

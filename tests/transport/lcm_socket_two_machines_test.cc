@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who is heard from a wire: two networks with a cable between them. Each test leaves for networks of its own.
+// The senders that a socket hears over a cable: two private networks with a virtual cable. Each test enters new ones.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sched.h>
@@ -26,7 +26,7 @@ bool run(const std::string& command) {
   return std::system(with_path.c_str()) == 0;  // NOLINT(concurrency-mt-unsafe): one thread
 }
 
-/// Sends one datagram with a hop to the group, out of `interface_address`.
+/// Sends one datagram with a TTL of 1 to the group, from the interface with `interface_address`.
 void send_from(const char* interface_address) {
   const int sender = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   in_addr out{};
@@ -52,7 +52,7 @@ int heard(LcmSocket& socket) {
   return count;
 }
 
-/// This machine, 10.9.0.1, and another one, 10.9.0.2, that sends when it is told to.
+/// This machine, 10.9.0.1, and another one, 10.9.0.2, that sends on request.
 class TwoMachines : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -132,7 +132,7 @@ TEST_F(TwoMachines, WithoutHopsOnlyThisMachineIsHeardEvenOnARealInterface) {
 TEST_F(TwoMachines, AnInterfaceThatTheRouteDoesNotNameIsNotHeard) {
   route_over("lo");
   LcmSocket socket({kGroup, 7667, 1}, 8204);
-  // Another program of this machine joins there, so that the datagrams come in.
+  // Another program of this machine joins the group on that interface, so that the kernel accepts the datagrams.
   const int neighbour = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   ip_mreq membership{};
   ::inet_pton(AF_INET, kGroup, &membership.imr_multiaddr);

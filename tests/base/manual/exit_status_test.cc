@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How every program ends: with the numbers of one table, which its help and docs/troubleshooting.md have.
+// Exit statuses: all programs use the numbers of one table, which their help and docs/troubleshooting.md contain.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -37,7 +37,7 @@ Ending ending_of(const std::string& command) {
   return ending;
 }
 
-/// Number and meaning.
+/// Meanings by number.
 using Statuses = std::map<std::string, std::string>;
 
 Statuses matches(const std::string& text, const std::regex& row) {
@@ -61,7 +61,7 @@ TEST(ExitStatus, IsListedAlikeByEveryProgramAndThePage) {
   EXPECT_EQ(page.size(), 5U);
   for (const char* program : {"strainwavectl", "strainwaved", "strainwave-telemetry", "strainwave-sim",
                               "strainwave-design", "strainwave-can-sim"}) {
-    if (!std::filesystem::exists(kPrograms + program)) continue;  // a build without the design
+    if (!std::filesystem::exists(kPrograms + program)) continue;  // a build without strainwave-design
     const Ending help = ending_of(kPrograms + program + " --help");
     EXPECT_EQ(help.status, 0);
     const std::size_t begin = help.said.find("Exit status:");
@@ -79,7 +79,7 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "nonsense") << "nonsense\n";
   for (const EndingCase& expected :
-       std::vector<EndingCase>{// What is asked for is done.
+       std::vector<EndingCase>{// Success.
                                {"strainwavectl --version", 0},
                                {"strainwavectl keygen --out key", 0},
                                {"strainwaved --version", 0},
@@ -88,7 +88,7 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
                                {"strainwave-design --version", 0},
                                {"strainwave-spy --help", 0},
                                {"strainwave-can-sim --version", 0},
-                               // A command line that makes no sense.
+                               // A wrong command line.
                                {"strainwavectl", 2},
                                {"strainwavectl --nonsense", 2},
                                {"strainwaved", 2},
@@ -99,7 +99,7 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
                                {"strainwave-spy --nonsense", 2},
                                {"strainwave-can-sim", 2},
                                {"strainwave-can-sim none0", 2},
-                               // A file that is not there, and one that makes no sense.
+                               // A file that does not exist, or has the wrong content.
                                {"strainwavectl export none.lcm --out out.csv", 2},
                                {"strainwavectl load-table elbow none.json", 2},
                                {"strainwavectl load-table elbow nonsense", 2},
@@ -114,7 +114,7 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
                                {"strainwave-design show none.json", 2},
                                {"strainwave-design verify nonsense", 2},
                                {"strainwave-design fit none.csv --out out.json", 2},
-                               // Nobody there.
+                               // No daemon answers.
                                {"strainwavectl --lcm-url memq:// --timeout_s 0.1 status", 3},
                                {"strainwavectl --lcm-url memq:// --timeout_s 0.1 enable elbow wrist", 3},
                                {"strainwavectl --lcm-url memq:// --timeout_s 0.1 disable --all", 3}}) {

@@ -79,7 +79,7 @@ TEST_P(Manual, EveryOptionOfTheHelpIsOnThePageAndOfferedByTheShells) {
   const std::string page = print("man");
   const std::string bash = print("bash");
   const std::string zsh = print("zsh");
-  // At the beginning of a line: a description may name an option of another program.
+  // Only at the beginning of a line, since a description may name an option of another program.
   const std::regex option("\n +(?:-[a-zA-Z],)?(--[a-z][a-zA-Z0-9_-]*)");
   for (auto it = std::sregex_iterator(help.begin(), help.end(), option); it != std::sregex_iterator(); ++it) {
     const std::string name = it->str(1);
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, Manual,
                            return name;
                          });
 
-/// What bash offers for the last of `words`. The joints that are heard are those of `network`.
+/// Completions that bash offers for the last of `words`. A strainwavectl in the folder `network` lists the joints.
 std::string completions(const std::string& words, const std::string& network = "/nowhere") {
   const std::string program = words.substr(0, words.find(' '));
   std::string function = "_" + program;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A client with a daemon of the test's own on the other side of LCM's memory queue, and what a command printed or threw.
+// A client connected to a fake daemon over LCM's memory queue, and the output or error of a command.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace strainwave::testing {
 
 class CommandsTest : public ::testing::Test {
  protected:
-  /// How `command` ended, with its message in `message`.
+  /// Returns the exit status of `command` and stores its error text in `message`.
   template <typename Command>
   ExitStatus status_of(const Command& command) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// doctor on recordings, and what it refuses.
+// The doctor command on recordings, and the recordings that it refuses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using testing::CommandsTest;
 
 class DoctorTest : public CommandsTest {
  protected:
-  /// Strokes of 0.2 kg m2 with friction, the torque that made them times `sign`.
+  /// Strokes of a joint of 0.2 kg m2 with friction. `sign` scales the recorded torque; -1 makes it wrong.
   void write_log(double sign, std::int32_t notices = 0) {
     testing::EventLogFile log(log_file());
     limits_v1 limits{};

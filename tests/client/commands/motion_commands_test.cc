@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions that are waited for.
+// Motions for which the command waits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ TEST_F(CommandsTest, MoveAsksForAnAcknowledgementOfAMoveNotAStream) {
 
 TEST_F(CommandsTest, MoveWaitsUntilTheJointHoldsAtTheTarget) {
   daemon.publish_state(Mode::kHolding);
-  // The first state left the daemon before it took the order.
+  // The daemon sent the first of these states before it received the order.
   daemon.modes_after_answer = {Mode::kHolding, Mode::kTracking, Mode::kTracking, Mode::kHolding};
   daemon.after_answer = [&] { daemon.state.joint_position_rad = 0.4995; };
   EXPECT_EQ(move_and_wait(0.5), ExitStatus::kDone) << message;
@@ -56,7 +56,7 @@ TEST_F(CommandsTest, MoveDoesNotCallItArrivedOutsideOfTheTolerance) {
   EXPECT_FALSE(output_has("arrived"));
 }
 
-// It is over before a state shows that the joint moves.
+// The move ends before any state shows that the joint moves.
 TEST_F(CommandsTest, MoveThatIsShortIsNotSaidToHaveTakenAsLongAsOldStatesMayCome) {
   daemon.publish_state(Mode::kHolding);
   StateAfterState states(connection, daemon);
@@ -131,7 +131,7 @@ TEST_F(CommandsTest, MoveThatALoadEndsInAFaultTellsTheFault) {
   EXPECT_TRUE(message_has("24: load too large")) << message;
 }
 
-// What left the daemon before it took the order still tells of it.
+// A state that the daemon sent before it received the order still reports the earlier load.
 TEST_F(CommandsTest, MoveIsNotEndedByALoadOfBefore) {
   daemon.publish_state(Mode::kHolding);
   daemon.obeys_moves = false;

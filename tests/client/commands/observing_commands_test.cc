@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What only looks: status, watch, record, timing.
+// Commands that only observe: status, watch, record, timing.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -202,7 +202,7 @@ TEST_F(CommandsTest, ExportSaysThatThereWasNothing) {
   }
 }
 
-/// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is dispatched.
+/// memq:// drops messages without a subscriber. This class sends the message once a first message, the trigger, is dispatched.
 class LaterTiming {
  public:
   LaterTiming(Connection& connection, const timing_v1& timing)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders, their answers, and what is printed of them.
+// Orders, their answers and the printed output.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -94,7 +94,7 @@ TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
 }
 
 TEST_F(CommandsTest, GpioCheckSaysWhereItsHelperMustBe) {
-  // Beside this test's program there is no strainwaved.
+  // The folder of this test program has no strainwaved.
   EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kUsage);
   EXPECT_TRUE(message_has("strainwaved")) << message;
   EXPECT_TRUE(message_has("install it beside strainwavectl")) << message;
@@ -104,13 +104,13 @@ TEST(SiblingProgram, TellsItsStatusAndWhatItPrintedWhenAsked) {
   std::string printed;
   EXPECT_EQ(run_sibling("/bin/sh", {"-c", "echo one; echo two; echo aside >&2; exit 3"}, &printed), 3);
   EXPECT_EQ(printed, "one\ntwo\naside\n");
-  // More than a pipe holds.
+  // The output is larger than a pipe's buffer.
   EXPECT_EQ(run_sibling("/bin/sh", {"-c", "head -c 300000 /dev/zero"}, &printed), 0);
   EXPECT_EQ(printed.size(), 300014U);
   EXPECT_EQ(run_sibling("/bin/sh", {"-c", "kill -9 $$"}), 128 + 9);
 }
 
-// One that comes between two programs of a sequence, or as one begins.
+// The signal comes between two programs of a sequence, or as one begins.
 TEST(SiblingProgram, IsEndedByASignalWheneverItCame) {
   const std::filesystem::path made = ::testing::TempDir() + "sibling_program_ran";
   std::filesystem::remove(made);
@@ -199,7 +199,7 @@ TEST_F(CommandsTest, EnableOfSeveralTellsEachOutcomeAndEndsAsTheWorst) {
   EXPECT_EQ(status_of([&] { order_each(client, output, {"elbow", "wrist"}, enable); }), ExitStatus::kRefused);
   EXPECT_TRUE(message_has("elbow: enable refused (16")) << message;
   EXPECT_TRUE(output_has("wrist: enabled, holding")) << "the failure before did not keep the order from it";
-  // "ghost" is not there, which is worse than a refusal, whichever comes first.
+  // "ghost" does not exist. Its exit status outranks that of a refusal, in either order.
   EXPECT_EQ(status_of([&] {
               order_each(client, output, {"ghost", "elbow"}, enable);
             }),

@@ -26,7 +26,7 @@ class PathCommandsTest : public testing::CommandsTest {
   std::string refusal(const std::string& text) {
     return testing::refusal_of([&] { (void)read_path(file_of(text)); });
   }
-  /// Both joints hold and are heard with their limits as soon as the client listens.
+  /// Both joints hold. The client receives their states and limits as soon as it listens.
   void let_two_joints_hold() {
     for (FakeDaemon* const one : {&daemon, &wrist}) {
       one->limits.acceleration_rad_s2 = one->limits.deceleration_rad_s2 = 20.0;
@@ -35,7 +35,7 @@ class PathCommandsTest : public testing::CommandsTest {
       one->publish_state(Mode::kHolding);
     }
   }
-  /// Limits are published once a second; here whenever the joints' states are.
+  /// Publishes the limits with every state. The real daemon publishes them once a second.
   ExitStatus move_both(const MoveTogetherArguments& arguments) {
     let_two_joints_hold();
     const Subscription whenever_asked =
@@ -185,13 +185,13 @@ TEST_F(PathCommandsTest, WaitsUntilTheLastJointIsThere) {
     daemon.state.target_position_rad = 0.4;
     wrist.state.target_position_rad = -0.2;
   };
-  // Each state is followed by the next until the joints are there, the wrist later than the elbow.
+  // Each state triggers the next one until both joints have arrived. The wrist arrives after the elbow.
   struct Playing {
     FakeDaemon &elbow, &wrist;
     int& rounds;
     void on_state(const ReceivedMessage&) {
       if (++rounds > 400) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // a wait lasts a tenth of a second
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // a wait of the client lasts 0.1 s
 
       elbow.state.joint_position_rad = rounds > 10 ? 0.4 : 0.1;
       wrist.state.joint_position_rad = rounds > 120 ? -0.1995 : -0.1;
@@ -211,7 +211,7 @@ TEST_F(PathCommandsTest, WaitsUntilTheLastJointIsThere) {
   EXPECT_TRUE(output_has("largest error -5.00e-04 rad")) << stream.str();
 }
 
-/// States of a path that somebody pauses for a while, one after the other as they are heard.
+/// States of a path that is paused for a while. Each state triggers the next one.
 struct PausedPath {
   FakeDaemon &elbow, &wrist;
   int rounds = 0;

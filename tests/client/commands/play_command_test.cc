@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Setpoints of a log that are sent again.
+// The play command sends the setpoints of a log again.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What who waits for several joints is told when one of them yields to a load.
+// The report of a wait for several joints when one of them yields to a load.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace {
 
 using testing::CommandsTest;
 
-/// States of a path whose wrist yields to a load: the elbow, which stops for that, is heard of first.
+/// States of a path whose wrist yields to a load. The elbow stops because of it, and its state arrives first.
 struct YieldingPath {
   FakeDaemon &elbow, &wrist;
   int rounds = 0;
@@ -50,8 +50,8 @@ TEST_F(CommandsTest, ALoadThatOneOfSeveralJointsYieldsToIsToldAndNotWhatItMadeOf
   EXPECT_TRUE(details.yielded_to);
 }
 
-/// States of a path whose joints drive into a wall each: the elbow yields, the wrist comes to rest with it, and shows only then that it yields
-/// or faults, too.
+/// States of a path on which each joint drives into a wall. The elbow yields first and the wrist stops with it. Only later does the wrist show that
+/// it yields or faults too.
 struct PathIntoTwoWalls {
   FakeDaemon &elbow, &wrist;
   Mode wrist_ends = Mode::kHolding;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libstrainwave-client before a daemon of the test's own, over a real network. What it does with strainwaved, docs/client.md shows.
+// libstrainwave-client with a fake daemon over a real network. docs/client.md shows it with strainwaved.
 #include "strainwave/joint.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST_F(JointTest, WhatIsWrongIsRefusedBeforeAnythingIsSent) {
 TEST_F(JointTest, KnowsTheLatestStateHoweverLongNobodyAsked) {
   Joint joint = elbow();
   const std::int64_t first = joint.state().cycle;
-  // More than the system keeps of the network, and than waits for a call.
+  // More states than the system's socket buffer or a queue of the client would keep.
   constexpr std::int64_t kManyStates = 5000;
   while (daemon.cycle() < first + kManyStates) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const std::int64_t least = daemon.cycle() - 2000;
@@ -121,7 +121,7 @@ TEST_F(JointTest, HandsOverEveryStateInOrder) {
 
 TEST_F(JointTest, OfTheSameNameIsAnsweredWhileAnotherWaits) {
   daemon.daemon().obeys_moves = false;
-  daemon.daemon().state.mode = static_cast<std::int32_t>(Mode::kTracking);  // and never arrives
+  daemon.daemon().state.mode = static_cast<std::int32_t>(Mode::kTracking);  // the joint never arrives
   std::atomic<int> answers{0};
   daemon.daemon().after_answer = [&] { ++answers; };
   Joint moving = elbow(1.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths of libstrainwave-client before a daemon of the test's own. What they do with strainwaved, docs/client.md shows.
+// Paths of libstrainwave-client with a fake daemon. docs/client.md shows them with strainwaved.
 #include "strainwave/path.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a stream ends: by its close, by an exception, by what became of the joint or of its daemon.
+// A stream ends by its close, by an exception, or because the joint or its daemon stops it.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -86,7 +86,7 @@ TEST_F(StreamTest, HoldsAfterARefusal) {
   EXPECT_EQ(commands.back().action, static_cast<std::int32_t>(Action::kHold));
 }
 
-// A played daemon for each reason: samples of the first stream are still on their way when it has ended.
+// The fake daemon ends the stream with each reason, while samples of the stream are still on their way.
 class EndedStreamTest : public StreamTest, public ::testing::WithParamInterface<Reason> {};
 
 TEST_P(EndedStreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
@@ -130,7 +130,7 @@ TEST_F(StreamTest, CountsLateAndOutdatedSamplesEachOnTheirOwn) {
   EXPECT_EQ(stream.outdated(), 2);
 }
 
-// A played daemon that stays silent about its joint, and refuses what comes, until the joint has come to its end.
+// A fake daemon that refuses all samples and says nothing about the reason until the joint has stopped.
 class StoppedStreamTest : public StreamTest {
  protected:
   Stream begun() {
@@ -138,7 +138,7 @@ class StoppedStreamTest : public StreamTest {
     stream.put(0.0, 0.1);
     return stream;
   }
-  /// What the put that finds it out throws.
+  /// Expects the put that notices the end to throw an Error.
   template <typename Error>
   void expect_over(Stream& stream, const std::function<void(const Error&)>& look) {
     double t_s = 0.0;
@@ -165,10 +165,10 @@ TEST_F(StoppedStreamTest, ThrowsTheFaultThatEndedIt) {
                        [](const Faulted& error) { EXPECT_EQ(error.fault(), Fault::kFollowingError); });
 }
 
-// The new daemon counts its cycles from 0: those of the samples would never come.
+// The new daemon counts its cycles from 0, so that the cycles of the samples would never come.
 TEST_F(StoppedStreamTest, ThrowsThatTheDaemonWasRestartedAndWhatToDo) {
   auto& played = daemon.daemon();
-  // Until the joint knows: a state of before would make every sample late.
+  // Waits until the joint has this cycle. An older state would make every sample late.
   constexpr std::int64_t kCycle = 1'000'000'000;
   while (joint.state().cycle < kCycle) played.state.cycle = kCycle;
   played.after_answer = [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint of the library and the daemon of three lines that hears its streams.
+// A joint of the library and the fake daemon that receives its streams.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace strainwave::testing {
 
 class StreamTest : public ::testing::Test {
  protected:
-  /// What was heard, without repetitions, once the daemon is silent.
+  /// Silences the daemon and returns the received messages without repetitions.
   template <typename Message>
   std::vector<Message> heard() {
     daemon.stop();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stream sends, and what it refuses to send.
+// The samples that a stream sends, and those that it refuses.
 #include "strainwave/stream.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
 }
 
 TEST_F(StreamTest, InMillisecondsIsRefusedBeforeItWaitsForSeconds) {
-  for (const double step : {1.0, 10.0}) {  // of 1 kHz and of 100 Hz
+  for (const double step : {1.0, 10.0}) {  // 1 kHz and 100 Hz, in milliseconds
     auto stream = joint.stream({.ahead_s = 0.1});
     stream.put(0.0, 0.1);
     try {

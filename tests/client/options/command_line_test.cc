@@ -34,7 +34,7 @@ Result run(const Arguments& given) {
   return {status, out.str(), err.str()};
 }
 
-// Every wait is short and in-process; no daemon is there.
+// Every wait is short and within the process. There is no daemon.
 Result run_alone(const Arguments& given) {
   Arguments arguments{"--lcm-url", "memq://", "--timeout_s", "0.1"};
   arguments.insert(arguments.end(), given.begin(), given.end());
@@ -181,7 +181,7 @@ TEST(CommandLine, ReportsAnLcmUrlThatCannotWork) {
   }
 }
 
-// One command that fails of each family, and of each way to fail that needs no daemon.
+// One failing command of each family, and each kind of failure that needs no daemon.
 TEST(CommandLine, AnswersEveryFailureAsOneJsonObjectWithJson) {
   const TemporaryFolder folder;
   const std::string taken = (folder.path() / "taken").string();

@@ -80,7 +80,7 @@ TEST_F(ClientTest, SaysWhereToLookWhenNothingAnswersInTheWordsOfItsUser) {
 
 TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {
   std::vector<std::uint8_t> older = encode(state_v1{});
-  ++older[3];  // of the type's fingerprint
+  ++older[3];  // a byte of the type's fingerprint
   older.resize(older.size() - 8);
   connection.publish("SW.elbow.STATE", older);
   EXPECT_NE(failure("elbow").find("the daemon on prefix SW speaks another version"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the client writes into event logs, and what it makes of them.
+// The event logs that the client writes and reads.
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 

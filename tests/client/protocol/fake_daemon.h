@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A daemon of three lines for the client's tests: it hears orders on the channels of one joint, drops,
-// answers or refuses them as the test says, and publishes the states that the test lists. Works on any LCM
-// network; on memq:// it shares the client's connection.
+// A fake daemon for the client's tests. It receives the orders of one joint and drops, answers or refuses them as the test says. It publishes the
+// states that the test lists. It works on any LCM network; on memq:// it shares the client's connection.
 #pragma once
 
 #include <chrono>
@@ -28,22 +27,22 @@ class FakeDaemon {
 
   FakeDaemon(Connection& connection, std::string prefix, std::string joint);
 
-  /// Orders heard, dropped ones included.
+  /// Orders received, including the dropped ones.
   const std::vector<Heard>& heard() const noexcept { return heard_; }
 
-  /// Publishes `state` as it is, or with another mode.
+  /// Publishes `state`; with an argument, sets its mode first.
   void publish_state();
   void publish_state(Mode mode);
   void publish_limits();
-  /// From the next state on: it has yielded to 13.1042 N.m, towards positive positions, where 12 were allowed, at 0.3011 rad.
+  /// From the next state on, the joint has yielded to 13.1042 N.m towards positive positions at 0.3011 rad, with a limit of 12 N.m.
   void show_yield();
 
   state_v1 state{};
   limits_v1 limits{};
-  int drop = 0;  ///< that many orders get no answer
+  int drop = 0;  ///< number of orders that get no answer
   Reason reason = Reason::kAccepted;
   std::string text;
-  std::int64_t last_sequence = 0;        ///< what the answer says of earlier ones
+  std::int64_t last_sequence = 0;        ///< sequence that the answer reports as the last accepted one
   std::int64_t sequence_error = 0;       ///< added to the sequence that the answer quotes
   std::string answers_as;                ///< joint on whose channel the answers go out; empty: its own
   bool obeys_moves = true;               ///< an accepted setpoint becomes state.target_position_rad
@@ -61,7 +60,7 @@ class FakeDaemon {
   Subscription subscription_;
 };
 
-/// As long as it lives, each state of the daemon is followed by the next, a few milliseconds later.
+/// While it lives, each state of the daemon triggers the next one a few milliseconds later.
 class StateAfterState {
  public:
   StateAfterState(Connection& connection, FakeDaemon& daemon)

@@ -20,8 +20,8 @@ KnotPath as_knots(const JointPath& part) {
   return path;
 }
 
-// Random ways and limits: every part is one that the daemon takes, all leave and arrive together, and at every instant all have the same share
-// of their ways behind them.
+// Random distances and limits. The daemon accepts the path of every joint, all joints leave and arrive together, and at every instant all have
+// covered the same share of their distance.
 TEST(StraightPath, KeepsEveryJointsLimitsAndTheSameShareOfEveryWay) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> position(-3.0, 3.0);
@@ -65,7 +65,7 @@ TEST(StraightPath, KeepsEveryJointsLimitsAndTheSameShareOfEveryWay) {
 TEST(StraightPath, IsAsFastAsTheJointThatTakesLongest) {
   const std::vector<JointPath> path =
       straight_path({{"a", 0.0, 1.0, 2.0, 4.0, 8.0}, {"b", 0.0, 0.1, 2.0, 4.0, 8.0}});
-  // 2 rad/s after 0.5 s and 0.5 rad, braked in 0.25 s and 0.25 rad: 0.125 s between them.
+  // The joint reaches 2 rad/s after 0.5 s and 0.5 rad and brakes in 0.25 s and 0.25 rad, with 0.125 s between.
   EXPECT_NEAR(path[0].knots.back().time_s, 0.875, 1e-12);
   EXPECT_NEAR(path[0].knots[1].velocity_rad_s, 2.0, 1e-12);
   EXPECT_NEAR(path[1].knots[1].velocity_rad_s, 0.2, 1e-12);

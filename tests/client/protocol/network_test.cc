@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The client over a real LCM network: a daemon in a thread of its own, the command line as a user types it.
+// The client over a real LCM network, with a fake daemon in its own thread and the command line as a user types it.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/wait.h>
@@ -90,7 +90,7 @@ TEST(ClientOverMulticast, RecordTellsHowManyMessagesAreMissing) {
   const std::string last = result.out.substr(result.out.rfind('\n', result.out.size() - 2) + 1);
   const auto summary = nlohmann::json::parse(last);
   EXPECT_GT(summary.at("messages").get<int>(), 10) << result.out;
-  // Two between one and the next; a few at the edges count, but are not recorded.
+  // Two states are missing between any two messages. A few more at both ends are counted as missing.
   EXPECT_NEAR(summary.at("missing").get<double>(), 2.0 * summary.at("messages").get<double>(), 20.0)
       << result.out;
   std::filesystem::remove(file);
@@ -119,7 +119,7 @@ TEST(ClientOverMulticast, SurvivesMessagesThatAreNone) {
   EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
 }
 
-// They end a program that receives with LCM's library: this one, were it one.
+// These fragments crash any program that receives with LCM's library. The client has its own receiver.
 TEST(ClientOverMulticast, SurvivesTheFragmentsThatCrashLcmsLibraryAndStillSeesOrdersAndRecords) {
   const std::string url = own_url();
   const RunningDaemon daemon(url);
@@ -167,7 +167,7 @@ TEST(ClientOverMulticast, TellsARefusalAsJson) {
   EXPECT_EQ(json.at("allowed"), "from -3 to 3");
 }
 
-// A child process enters a network namespace without any route; there it must be told how to add one.
+// A child process enters a network namespace without any route. The client must explain how to add one.
 TEST(ClientWithoutMulticast, SaysHowToAddTheRoute) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);

@@ -43,7 +43,7 @@ TEST_F(PublishedLimitsTest, OfADaemonThatWasStartedAnewAreNotThoseFromBefore) {
 }
 
 TEST_F(PublishedLimitsTest, MayComeLaterThanAnyAnswerBecauseTheyComeOnceASecond) {
-  // Each state is followed by the next, for longer than the client's patience.
+  // Each state triggers the next one, for longer than the client's time-out.
   struct Playing {
     FakeDaemon& daemon;
     int rounds = 0;

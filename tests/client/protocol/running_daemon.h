@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The daemon of three lines in a thread of its own, on a real LCM network.
+// The fake daemon in its own thread on a real LCM network.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace strainwave {
 
 using testing::own_url;
 
-/// A joint that obeys everything and publishes its state all the time.
+/// A joint that obeys every order and publishes its state all the time.
 class RunningDaemon {
  public:
   explicit RunningDaemon(const std::string& url) : connection_(url), daemon_(connection_, "SW", "elbow") {
@@ -22,17 +22,15 @@ class RunningDaemon {
     thread_ = std::thread([this] { run(); });
   }
   ~RunningDaemon() { stop(); }
-  /// Falls silent, for good.
+  /// Stops the daemon for good.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  /// Says nothing any more, but hears.
+  /// Publishes and answers nothing more, but still receives.
   void fall_silent() noexcept { silent_ = true; }
-  FakeDaemon& daemon() noexcept {
-    return daemon_;
-  }  ///< to be set up before the first order, to be looked at after stop()
-  std::int64_t cycle() const noexcept { return cycle_; }  ///< of the latest state
+  FakeDaemon& daemon() noexcept { return daemon_; }  ///< set up before the first order, read after stop()
+  std::int64_t cycle() const noexcept { return cycle_; }  ///< cycle of the latest state
 
  private:
   void run() {

@@ -51,7 +51,7 @@ TEST(Sender, TellsWhenAMessageIsSent) {
   std::int64_t before = utime_now();
   for (int i = 0; i < 3; ++i) {
     setpoint_v1 message{};
-    message.utime = 17;  // of another one, from a recording
+    message.utime = 17;  // an old time, as in a message from a recording
     const auto read = decode_exactly<setpoint_v1>(sender.seal("SW.elbow.SETPOINT", message, {77, 815}).bytes);
     ASSERT_TRUE(read);
     EXPECT_GE(read->utime, before);

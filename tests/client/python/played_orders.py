@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A network that a test plays, and a test of the orders that a joint sends on it; each kind of order has a test file of its own."""
+"""A fake network, and the base of the tests of orders that a joint sends on it. Each kind of order has its own test file."""
 import collections
 import threading
 import unittest
@@ -13,7 +13,7 @@ TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v1, PATH: path_v1}
 
 
 class PlayedNetwork:
-    """Of Network what a joint needs; `daemon` sees each message as it is published and may answer at once."""
+    """The parts of Network that a joint needs. `daemon` receives each published message and may answer at once."""
 
     url = "udpm://played"
     listen, wait_until = Network.listen, Network.wait_until

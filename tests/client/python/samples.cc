@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the C++ side says, for the tests of the Python package: bytes of every message type, a signature, an identity. One line each:
-// a name, a space, and hex digits or a number.
+// Prints reference data of the C++ side for the tests of the Python package: bytes of every message type, a signature, an identity. One line each: a
+// name, a space, and hex digits or a number.
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -33,7 +33,7 @@ void print(const std::string& name, std::span<const std::uint8_t> bytes) {
   std::cout << std::dec << '\n';
 }
 
-/// The message whose bytes after the fingerprint are 1, 2, 3, ...: every field has a value of its own.
+/// A message whose bytes after the fingerprint are 1, 2, 3, ..., so that every field has a different value.
 template <typename Message>
 void print_counting(const std::string& name) {
   std::vector<std::uint8_t> bytes = encode(Message{});
@@ -41,7 +41,7 @@ void print_counting(const std::string& name) {
   print(name, encode(*decode_exactly<Message>(bytes)));
 }
 
-/// fault_FAULT_DRIVE-ERROR: the words that tell of it.
+/// fault_FAULT_DRIVE-ERROR: the text that describes the fault.
 void print_words(Fault fault, std::uint32_t drive_error) {
   const std::string words = fault_words(fault, drive_error);
   print("fault_" + std::to_string(static_cast<int>(fault)) + "_" + std::to_string(drive_error),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Messages against the bytes of C++, signatures against libsodium's use there, and the words of numbers."""
+"""Compares messages and signatures with those of the C++ side, and tests the texts for numbers."""
 import os
 import pathlib
 import re

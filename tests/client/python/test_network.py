@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Over real multicast: what anybody may send to the group, a daemon that wants signatures, and which group is meant. In scripts/private-network."""
+"""Tests over real multicast, in scripts/private-network: arbitrary datagrams, a daemon that requires signatures, and the choice of the group."""
 import os
 import pathlib
 import random
@@ -46,7 +46,7 @@ class HostileDatagrams(unittest.TestCase):
             self.send(chance.randbytes(chance.randrange(1400)))
         for kind in ("STATE", "ACK", "LIMITS"):
             self.send(encode_short(2, f"SW.elbow.{kind}", b"\xff" * messages.size_of(state_v1)))
-        state.session_id = 9  # in case noise made a state
+        state.session_id = 9  # differs from any state that the noise may contain
         for _ in range(3):
             self.send(encode_short(3, "SW.elbow.STATE", state.encode()))
         self.elbow._wait_until(lambda: self.elbow._conversation.state and self.elbow._conversation.state.session_id == 9, 20)
@@ -64,7 +64,7 @@ class HostileDatagrams(unittest.TestCase):
         listener = Listener()
         network.listen("SW.elbow.ACK", listener.hear)
         sent_s = []
-        with network.changed:  # nothing is handled meanwhile
+        with network.changed:  # blocks the handling of messages
             for i in range(4):
                 sent_s.append(time.monotonic())
                 self.send(encode_short(i, "SW.elbow.ACK", b"x"))
@@ -114,13 +114,13 @@ while True:
         for _ in range(20):
             time.sleep(0.02)
             ages_s.append(time.time() - 1e-6 * self.elbow.state.utime)
-        self.assertLess(min(ages_s), 0.2, ages_s)  # an order that quotes one of a second ago is refused
+        self.assertLess(min(ages_s), 0.2, ages_s)  # the daemon refuses an order that quotes a state of a second ago
 
     def test_is_heard_wholly_by_who_asks_for_every_state(self):
         self.assertIsNotNone(self.elbow.state)
         cycles = [state.cycle for state in self.elbow.states(0.5)]
         steps = [later - earlier for earlier, later in zip(cycles, cycles[1:])]
-        self.assertEqual(statistics.median(steps), 1, cycles)  # a full queue of the system may lose some
+        self.assertEqual(statistics.median(steps), 1, cycles)  # the system's queue may overflow and lose some states
 
 
 class AnAdapterThatComesBack(unittest.TestCase):
@@ -186,7 +186,7 @@ class ADaemonThatWantsSignatures(unittest.TestCase):
         with self.assertRaises(Refused) as caught:
             unsigned.enable()
         self.assertIs(caught.exception.reason, Reason.UNSIGNED)
-        # One owner: what strainwavectl has enabled, this program may move.
+        # The program uses the same key as strainwavectl, so it may move the joint that strainwavectl has enabled.
         self.control("--key", self.key, "--timeout_s", "20", "enable", "elbow")
         arrival = signing.move(0.3)
         self.assertLessEqual(abs(arrival.error_rad), 1e-3)

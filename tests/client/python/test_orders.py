@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Orders over a network that the test plays: what is sent, how often, and what becomes of the answers."""
+"""Orders over a fake network: what is sent, how often, and how answers are handled."""
 import base64
 import pathlib
 import tempfile
@@ -61,7 +61,7 @@ class Orders(PlayedOrders):
         self.assertEqual(len(self.network.published), 1)
 
     def test_of_a_program_that_stood_still_quote_the_state_that_they_were_decided_on(self):
-        # Between reading the state and sending: the states of four seconds have come, and another has held the joint.
+        # New states arrive between reading the state and sending. Meanwhile another client has held the joint.
         for order in (self.elbow.enable, self.elbow.clear_fault, lambda: self.elbow.move(0.5, speed_limit_rad_s=1.0, wait=False)):
             self.publish_state(Mode.FAULTED if order == self.elbow.clear_fault else Mode.OFF, challenge=22)
             conversation, deciding_state = self.elbow._conversation, self.elbow._conversation.deciding_state
@@ -194,7 +194,7 @@ class Orders(PlayedOrders):
         self.network.joints = {("SW", "wrist"): now_s(), ("LAB", "hip"): now_s()}
         with self.assertRaisesRegex(NoAnswer, "no joint 'elbow' on prefix SW; its joints are: wrist"):
             self.impatient_elbow.enable()
-        # Another object of this program heard it, and it has not been heard since this one has been there.
+        # Another object of this program heard the joint earlier. Since this object exists, the joint has been silent.
         self.network.joints = {("SW", "elbow"): now_s() - 0.5}
         with self.assertRaisesRegex(NoAnswer, "^elbow: no state came in 0.2 s; the last one that was heard here came 0.7. s ago"):
             self.impatient_elbow.enable()
@@ -213,7 +213,7 @@ class Orders(PlayedOrders):
             self.impatient_elbow.enable()
 
     def wait_for_move(self, elbow, *states):
-        """The result of a move to 0.5 after which these states follow each other; the last one again and again."""
+        """Returns the result of a move to 0.5. The states follow in this order, and the last one repeats."""
         self.publish_state()
         done = threading.Event()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What help(strainwave) shows."""
+"""The output of help(strainwave)."""
 import pydoc
 import unittest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths over a network that the test plays."""
+"""Paths over a fake network."""
 import math
 import threading
 import time

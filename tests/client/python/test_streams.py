@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
+"""Streams over a fake network: the cycles of the samples, late samples, and the end of a stream."""
 import math
 import threading
 import time
@@ -100,7 +100,7 @@ class Streams(PlayedOrders):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
         stream = self.stream(valid_for_s=10.0)
         stream.put(0, 0.5)
-        # Five seconds later: what came in the first of them is heard, and fills the clock's memory.
+        # Five seconds later the client handles the states of the first second. They fill the memory of its clock.
         self.publish_state(Mode.TRACKING, cycle=6000)
         for i in range(100):
             self.state.cycle = 1000 + 5 * i
@@ -151,7 +151,7 @@ class Streams(PlayedOrders):
 
     def test_in_milliseconds_say_so_and_do_not_wait_for_seconds(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
-        for step in (1.0, 10.0):  # of 1 kHz and of 100 Hz
+        for step in (1.0, 10.0):  # 1 kHz and 100 Hz, in milliseconds
             stream = self.stream(ahead_s=0.1)
             stream.put(0, 0.1)
             begin = time.monotonic()
@@ -176,7 +176,7 @@ class Streams(PlayedOrders):
             stream.put(0.03, 0.13)
 
     def stream_ended(self, reason, mode, **fields):
-        """A stream whose second sample is refused, and only then come the states that say why."""
+        """A stream whose second sample is refused before the states show the reason."""
         def daemon(channel, message):
             order = published(channel, message)
             if order.begins_stream:
@@ -292,7 +292,7 @@ class Streams(PlayedOrders):
         self.assertEqual(len(self.network.published), sent)
 
     def stream_refused(self, reason, **answer):
-        """A stream whose second sample is refused; the joint holds when it is told to."""
+        """A stream whose second sample is refused. The joint obeys a hold."""
         def daemon(channel, message):
             order = published(channel, message)
             refused = channel == SETPOINT and not order.begins_stream
@@ -371,7 +371,7 @@ class Streams(PlayedOrders):
 
 
 class AHostileDaemon(PlayedOrders):
-    """States and limits with whatever numbers a message holds, and orders to it: only our own errors come of them."""
+    """States and limits with arbitrary numbers. Orders to the joint must raise only the package's own errors."""
 
     NUMBERS = (0.0, -1.0, 5e-324, 1e308, math.nan)
     CYCLES = (0, 2**62, 2**63 - 1, -(2**63))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""LCM's datagrams, read without trust."""
+"""LCM's datagrams from untrusted senders."""
 import random
 import struct
 import unittest
@@ -11,7 +11,7 @@ HERE = ("192.0.2.1", 5000)
 
 
 def fragments(message, channel=b"SW.elbow.STATE", sequence=1, part_size=100):
-    """As LCM sends a long message: the channel counts among the bytes of the first part's datagram alone."""
+    """Fragments as LCM sends them. Only the datagram of the first part contains the channel."""
     parts = [message[at:at + part_size] for at in range(0, len(message), part_size)]
     datagrams = []
     for number, part in enumerate(parts):

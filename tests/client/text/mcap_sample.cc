@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes an LCM event log with COUNT states of a joint at 200 Hz, and some of each other kind of message.
+// Writes an LCM event log with COUNT states of a joint at 200 Hz and some messages of each other kind.
 //
 //   mcap_sample LOG COUNT
 #include <cmath>

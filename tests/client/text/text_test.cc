@@ -92,8 +92,7 @@ TEST(StateRow, ShowsNoNegativeZero) {
   view.state.target_position_rad = -0.0;
   const std::string row = state_row("elbow", 12, view, 0.0);
   EXPECT_EQ(row.find("-0.0"), std::string::npos) << row;
-  const std::string details =
-      state_details("elbow", view, 0.0);  // digit for digit, but for the sign of nothing
+  const std::string details = state_details("elbow", view, 0.0);  // all digits, but no sign for zero
   EXPECT_EQ(details.find(" -0\n"), std::string::npos) << details;
   EXPECT_NE(details.find("-0.0004"), std::string::npos) << details;
   view.state = healthy().state;

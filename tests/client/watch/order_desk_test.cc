@@ -30,7 +30,7 @@ class OrderDeskTest : public ::testing::Test {
 
 TEST_F(OrderDeskTest, AStopGoesOutUnsignedWhenTheKeyCannotBeUsedAndNeedsNoSession) {
   OrderDesk desk(connection_, states_, "/nonexistent/key",
-                 0.4);  // a key in trouble must not keep a stop back
+                 0.4);  // an unusable key must not delay a stop
   desk.stop({{"ARM2", "elbow"}});
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);

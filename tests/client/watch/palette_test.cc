@@ -21,7 +21,7 @@ TEST(Palette, IsReadOnBlackAndOnWhite) {
   constexpr int kWhite = 231;
   for (const Style style : kStyles) {
     const Paint paint = paint_of(style, Colours::kMany);
-    if (paint.foreground < 0) continue;  // the terminal's own on its own
+    if (paint.foreground < 0) continue;  // the terminal's own colours
     ASSERT_GE(paint.foreground, 16);
     for (const int background : {kBlack, kWhite})
       EXPECT_GE(contrast(paint.foreground, paint.background < 0 ? background : paint.background), 4.5)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A screen as a picture (SVG), in the colours that a light or a dark terminal shows it in.
+// A picture (SVG) of a screen, in the colours of a light or a dark terminal.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace strainwave::testing {
 
 enum class Theme { kLight, kDark };
 
-/// What a cell looks like: numbers of xterm's 256 colours.
+/// Colours of a cell: indices into xterm's 256 colours.
 struct CellColours {
   int foreground;
   int background;
@@ -32,7 +32,7 @@ inline CellColours colours_of(const Cell& cell, Theme theme) {
   return colours;
 }
 
-/// Red, green and blue of a colour of xterm's cube or greys.
+/// Red, green and blue of a colour of xterm's cube or grey scale.
 inline std::array<int, 3> rgb(int colour) {
   if (colour >= 232) return {8 + 10 * (colour - 232), 8 + 10 * (colour - 232), 8 + 10 * (colour - 232)};
   const auto level = [](int step) { return step == 0 ? 0 : 55 + 40 * step; };
@@ -40,7 +40,7 @@ inline std::array<int, 3> rgb(int colour) {
   return {level(index / 36), level(index / 6 % 6), level(index % 6)};
 }
 
-/// Relative luminance (WCAG 2.1), and how two of them differ.
+/// Relative luminance and contrast ratio (WCAG 2.1).
 inline double luminance(int colour) {
   const auto linear = [](int value) {
     const double share = value / 255.0;

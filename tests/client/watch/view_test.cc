@@ -227,7 +227,7 @@ TEST(WatchView, HasRoomForWhatItKnowsOfTheSelectedJoint) {
 
 TEST(WatchView, ShowsTheWholeOfALongRefusalOnEveryTerminal) {
   WatchModel one = model(1);
-  // As long as ack_v1.text may be.
+  // As long as ack_v1.text allows.
   std::string reason = "SW.joint0: enable: refused, drive is not ready:";
   while (reason.size() < 270) reason += " word" + std::to_string(reason.size());
   one.message = reason + " END";
@@ -285,7 +285,7 @@ TEST(WatchView, HostileStatesAreDrawnAsWell) {
   state.setpoint_position_rad = std::nan("");
   state.temperature_weights[0] = std::nan("");
   state.temperature_weights[1] = -1e9;
-  hostile.joints[0].limits.emplace();  // min and max are equal
+  hostile.joints[0].limits.emplace();  // the limits' min and max are equal
   for (const double value : {1e300, -1e300, std::nan(""), 0.0}) {
     hostile.joints[0].history.error_rad.push_back(value);
     hostile.joints[0].history.torque_Nm.push_back(value);

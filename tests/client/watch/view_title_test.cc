@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first line of watch: an alarm, if there is one, and as much else as fits.
+// The first line of watch shows an alarm, if there is one, and as much more as fits.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What watch looks like: screens of a robot at work, in the sizes and on the terminals that people have, as text and as pictures
-// (build/PRESET/watch_pictures), to be looked at, and what a look must find on every one of them.
+// Screens of watch for a working robot, in common sizes and on common terminals. The test writes them as text and as pictures to
+// build/PRESET/watch_pictures for inspection, and checks what every screen must show.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ using testing::colours_of;
 using testing::contrast;
 using testing::Theme;
 
-/// A joint that moves to and fro, with noise in its error.
+/// A joint that moves back and forth, with noise in its error.
 WatchedJoint moving(const std::string& name, double phase) {
   WatchedJoint joint;
   joint.prefix = "SW";
@@ -52,7 +52,7 @@ WatchedJoint moving(const std::string& name, double phase) {
   return joint;
 }
 
-/// Six joints: one limited, one off, and the selected one, the first, at work or with a fault.
+/// Six joints: one torque-limited, one off. The selected first joint works or has a fault.
 WatchModel robot(bool fault_selected) {
   WatchModel model;
   model.daemons.push_back({"SW", {}, 0.3});
@@ -116,7 +116,7 @@ TEST_P(WatchPicture, CanBeReadOnItsTerminal) {
 TEST_P(WatchPicture, ShowsErrorTorqueAndTemperatureOfEveryJoint) {
   const Screen drawn = screen();
   for (const WatchedJoint& joint : model_.joints) {
-    int row = 1;  // below the title, which names who is faulted
+    int row = 1;  // below the title, which names the faulted joint
     while (row < drawn.rows() && drawn.text(row).find(joint.joint + " ") == std::string::npos) ++row;
     ASSERT_LT(row, drawn.rows()) << joint.joint;
     const std::string line = drawn.text(row);
@@ -131,7 +131,7 @@ TEST_P(WatchPicture, ShowsErrorTorqueAndTemperatureOfEveryJoint) {
 }
 
 TEST_P(WatchPicture, ASelectedFaultStandsOut) {
-  if (!std::get<2>(GetParam())) return;  // none is selected
+  if (!std::get<2>(GetParam())) return;  // no fault is selected
   const Screen drawn = screen();
   int row = 0;
   while (drawn.text(row).find(">base") == std::string::npos) ++row;

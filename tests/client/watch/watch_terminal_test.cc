@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// watch on a real (pseudo) terminal, as its user starts it: it takes the whole screen, follows its size, and
-// gives the terminal back.
+// watch on a real (pseudo) terminal, as its user starts it. It takes the whole screen, follows its size and restores the terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -80,7 +79,7 @@ class WatchOnATerminal : public ::testing::Test {
     return false;
   }
   void press(char key) const { ASSERT_EQ(::write(master_, &key, 1), 1); }
-  /// The exit status; -1 when it still runs after 20 s.
+  /// Returns the exit status, or -1 when the program still runs after 20 s.
   int wait_for_end() {
     int status = 0;
     for (const Deadline end(20.0); !end.passed();) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// 10^5 orders that must not be obeyed, mixed with good ones: none accepted, each counted under its cause.
+// Hostile orders mixed with good ones. None may be accepted, and each is counted under its cause.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,7 +23,7 @@ constexpr int kHostileOrders = 20'000;
 constexpr const char* kSetpoint = "SW.elbow.SETPOINT";
 constexpr const char* kCommand = "SW.elbow.COMMAND";
 
-/// What a hostile order does wrong.
+/// The defect of a hostile order.
 enum class Attack {
   kUnsigned,
   kForged,
@@ -56,10 +56,10 @@ class HostileOrders : public ::testing::Test {
     message.position_rad = std::uniform_real_distribution<>(-1.0, 1.0)(random_);
     return message;
   }
-  // Two milliseconds apart: the bound on wasted verifications has a test of its own.
+  // Two milliseconds apart: the limit of wasted verifications has its own test.
   Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 2'000'000); }
 
-  /// The attack's message, and the cause it must be counted under.
+  /// The message of the attack, and the cause under which it must be counted.
   std::pair<WireMessage, Reason> make(Attack attack) {
     setpoint_v1 message = next_setpoint();
     switch (attack) {
@@ -94,14 +94,14 @@ class HostileOrders : public ::testing::Test {
   }
   WireMessage forged(const setpoint_v1& message) {
     WireMessage result = wire(kSetpoint, message, &key_);
-    // Somewhere behind the fingerprint, the session and the challenge, which are judged earlier, but not in the key's name.
+    // After the fingerprint, the session and the challenge, which are checked earlier, but not in the key's id.
     const std::size_t key_id = result.size - kSealBytes;
     std::size_t at = 32 + random_() % (result.size - 32);
     if (at >= key_id && at < key_id + sizeof(KeyId)) at += sizeof(KeyId);
     result.bytes[at] = static_cast<std::uint8_t>(result.bytes[at] ^ (1U << random_() % 8));
     return result;
   }
-  /// A good order in between: it is obeyed whatever came before.
+  /// A good order in between. It must be obeyed whatever came before.
   void send_good_order() {
     const setpoint_v1 message = next_setpoint();
     last_good_ = wire(kSetpoint, message, &key_);
@@ -124,7 +124,7 @@ TEST_F(HostileOrders, AreNeverObeyedAndEachIsCountedUnderItsCause) {
   for (int i = 0; i < kHostileOrders; ++i) {
     if (i % 100 == 0) send_good_order();
     const auto attack = static_cast<Attack>(random_() % static_cast<std::uint64_t>(Attack::kCount));
-    // A replay of the last good order is only that while nothing newer was taken.
+    // It is a replay of the last good order only if no newer order was accepted.
     if (attack == Attack::kReplayed || attack == Attack::kReordered) send_good_order();
     const auto [message, cause] = make(attack);
     const Verdict verdict = consider(message);
@@ -150,7 +150,7 @@ TEST_F(HostileOrders, OfRandomBytesOnEveryChannelAreNeverObeyed) {
       std::copy_n(reinterpret_cast<const std::uint8_t*>(&bits), 8,
                   message.bytes.begin() + static_cast<std::ptrdiff_t>(at));
     }
-    // Half of them with the right fingerprint and size, so that they get as far as they can; never the action that stops.
+    // Half of the messages have the right fingerprint and size, so that they pass the first checks. None has the action that stops.
     if (i % 2 == 0) {
       message.channel = FixedString<64>(kCommand);
       message.size = sound.size;

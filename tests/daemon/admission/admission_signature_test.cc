@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Above 300 lines: what is asked of one signed admission, with the keys and messages that all of it shares.
-// Who may order what, and what somebody without a key can do to those who have one.
+// Roles of keys, and attacks without a key on the owners of keys.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -78,7 +78,7 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
   EXPECT_EQ(revert.reason, Reason::kRoleNotAllowed);
   EXPECT_NE(revert.text.find("Otto"), std::string::npos);
   EXPECT_NE(revert.text.find("needs engineer"), std::string::npos);
-  // The empty table passes the role and fails on its own account.
+  // The empty table passes the role, and is then refused for its own defect.
   EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind,
             Verdict::Kind::kOrder);
@@ -182,7 +182,7 @@ TEST_F(SignedAdmission, NothingThatWasSentBeforeAFaultIsObeyedAfterIt) {
 }
 
 TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless) {
-  // Somebody on the path lets the second move pass first, then delivers the one that came before it.
+  // An attacker on the path lets the second move pass first, then delivers the earlier one.
   const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
   ASSERT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 101), &operator_)).kind, Verdict::Kind::kOrder);
   const Verdict late = consider(move);
@@ -190,7 +190,7 @@ TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless
   EXPECT_EQ(late.requester.last_sequence, 101);
 }
 
-// An order and a stop that overtakes it, in a burst or because somebody keeps the order back: by anybody, with a key or without.
+// A stop overtakes an order, in a burst or because an attacker keeps the order back. Any client may stop, with a key or without.
 TEST_F(SignedAdmission, NothingThatWasSentBeforeAStopIsObeyedAfterIt) {
   for (const Action stop : {Action::kDisable, Action::kHold}) {
     const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
@@ -208,7 +208,7 @@ TEST_F(SignedAdmission, WhoStoppedTheJointHimselfMayGiveAnewWhatHeOrderedAfterTh
       << "ordered before he stopped it, in another window";
 }
 
-// The clients of one account have one sender_id, whatever their keys, and anybody may write it into a message.
+// The clients of one account share a sender_id, whatever their keys. Anyone may write it into a message.
 TEST_F(SignedAdmission, AStopWithTheSameSenderButAnotherKeyOrNoneIsSomebodyElses) {
   const std::array<const SecretKey*, 3> keys{&engineer_, &stranger_, nullptr};
   for (const SecretKey* key : keys) {
@@ -275,7 +275,7 @@ TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
   EXPECT_GE(verified, kAverage);
   EXPECT_LE(verified, kAverage + Admission::kWastedVerificationsAtOnce);
   EXPECT_EQ(rejects(Reason::kBadSignature) + rejects(Reason::kBusy), kForgeries);
-  // A millisecond later the owner of the key is heard again, and a stop was at all times.
+  // A millisecond later, orders of the key's owner are accepted again. Stops were accepted at all times.
   EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_), 2'001'000'000).kind,
             Verdict::Kind::kOrder);
 }
@@ -287,17 +287,17 @@ TEST_F(SignedAdmission, CountsReplaysAgainstTheSameBoundButNotGoodOrders) {
     ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, i), &operator_), 0).kind,
               Verdict::Kind::kOrder);
   for (int i = 0; i < kOrders; ++i) admission_.consider(recorded, 0);
-  // Half of what there is and a little more, the rest being for others.
+  // A little more than half of the budget. The rest is for other sources.
   const auto verified = static_cast<double>(rejects(Reason::kOldSequence));
   EXPECT_GE(verified, 0.5 * Admission::kWastedVerificationsAtOnce);
   EXPECT_LE(verified, 0.6 * Admission::kWastedVerificationsAtOnce);
   EXPECT_EQ(rejects(Reason::kOldSequence) + rejects(Reason::kBusy), kOrders);
 }
 
-// Each from a source of its own, as a program that is started for one order; the forger has as many as he likes up to two thousand.
+// Every good order has its own source, like a program that is started for one order. The forger has up to two thousand sources.
 TEST_F(SignedAdmission, VerifiesGoodOrdersAndStopsAmongForgeriesFromManySources) {
   constexpr std::uint64_t kElsewhere = 1U << 20U;
-  constexpr int kWarmUp = 15'000;  // until each of the ports has had its first
+  constexpr int kWarmUp = 15'000;  // until each of the ports has had its first request
   for (const Action action : {Action::kClearFault, Action::kDisable})
     for (const int ports : {200, 400, 2000}) {
       WireMessage forged = wire(kCommand, command(action, 1, 1), &operator_);

@@ -120,7 +120,7 @@ TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefuse
   EXPECT_EQ(refused(0.0, std::nan(""), true).reason, Reason::kNotFinite);
 }
 
-// What is printed of a bound was less than it in its last digits, or as much as what it refused.
+// The printed bound was below the real one in its last digits, or looked the same as the refused value.
 TEST_F(AdmissionTest, TakesTheBoundThatItNamesAndPrintsWhatItRefusesApartFromIt) {
   setpoint_v1 sample = setpoint(0.5);
   sample.stream_id = 7;

@@ -11,8 +11,8 @@ constexpr std::uint64_t kNewcomer = 1'000'000;
 constexpr std::uint64_t kElsewhere = 4'000'000'000;  // another address
 constexpr std::uint64_t kSalt = 4711;
 
-/// Floods from `sources` sources, `per_ms` requests in each of `until_ms` milliseconds, beginning at `from_ms`. Returns how many
-/// were granted.
+/// Floods from `sources` sources with `per_ms` requests in each millisecond from `from_ms` to `until_ms`.
+/// Returns the number of granted requests.
 int flood(FairShare& share, std::uint64_t sources, int per_ms, std::int64_t from_ms, std::int64_t until_ms) {
   int granted = 0;
   std::uint64_t turn = 0;
@@ -53,7 +53,7 @@ TEST(FairShare, GivesOneThatComesNowAndThenHisEachTime) {
 TEST(FairShare, KeepsTheLastOfTheReserveForThoseWhoProvedWhoTheyAre) {
   FairShare share(1000.0, 200.0, kSalt);
   share.prove(kNewcomer, 0);
-  // More sources than are remembered: to each of them nobody can say that it took anything.
+  // More sources than are remembered, so that each of them looks like a new one.
   flood(share, 100'000, 50, 0, 5000);
   EXPECT_FALSE(share.available(kElsewhere, 4999 * kMillisecond_ns));
   EXPECT_TRUE(share.available(kNewcomer, 4999 * kMillisecond_ns));

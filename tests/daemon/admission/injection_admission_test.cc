@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Injected faults pass admission like every other order, and only simulated drives take them.
+// Injected faults pass the same admission as other orders. Only simulated drives accept them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths at the door: what is refused before anything of it reaches the loop.
+// Admission of paths: refusals before any part of a path reaches the loop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class PathAdmissionTest : public ::testing::Test {
     message.sequence = ++sequence_;
     return message;
   }
-  /// There and back, at rest in `count` knots.
+  /// A path there and back, at rest in `count` knots.
   path_v1 path(int count, std::int64_t sender_id = 1) {
     auto message = order<path_v1>(sender_id);
     message.path_id = 7;
@@ -64,7 +64,7 @@ class PathAdmissionTest : public ::testing::Test {
 
 TEST_F(PathAdmissionTest, PassesASoundPathWithTheKnotsThatItHas) {
   path_v1 message = path(3);
-  message.position_rad[3] = std::nan("");  // means nothing
+  message.position_rad[3] = std::nan("");  // beyond the last knot: ignored
   const Verdict verdict = consider(message);
   ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder) << verdict.text;
   EXPECT_EQ(verdict.order.kind, OrderKind::kLoadPath);

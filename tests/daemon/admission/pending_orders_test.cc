@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders on their way through the loop, without its thread: what it takes and what it replies is the test's.
+// Orders on their way through the loop, without its thread: the test takes them and replies in the loop's place.
 #include "daemon/admission/pending_orders.h"
 
 #include <gtest/gtest.h>
@@ -45,14 +45,14 @@ class PendingOrdersTest : public ::testing::Test {
     orders_.handle(verdict, now_ns_);
     return verdict;
   }
-  /// The loop takes every order and accepts it; `replies`: and says so.
+  /// The loop takes every order. If `replies`, it answers that it accepts it.
   void obey(bool replies) {
     Order order;
     while (loop_.joint(0).orders().pop(order)) {
       if (replies) (void)loop_.replies().push({order.id, Reason::kAccepted, Mode::kOff});
     }
   }
-  /// The text of the refusal that the loop's `reply` makes of an order of this kind.
+  /// The text of the refusal for the loop's `reply` to an order of this kind.
   std::string refusal(OrderKind kind, Reply reply) {
     order(kind, true);
     Order taken;

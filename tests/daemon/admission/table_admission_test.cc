@@ -82,7 +82,7 @@ TEST_F(TableAdmission, RefusesEverySingleGainWhoseSignIsTurned) {
   EXPECT_EQ(judge(), Reason::kTableNotCertified);
 }
 
-// Its box is proved, but the integral's slow part would be told by a function that rises.
+// The box is proved. But the Lyapunov function that separates the integral's slow part would rise.
 TEST_F(TableAdmission, RefusesAMatrixOfRuleZeroThatDoesNotFall) {
   StateMatrix P = table_.primary.lyapunov(0);
   P(0, 1) = P(1, 0) = 0.0;
@@ -101,7 +101,7 @@ TEST_F(TableAdmission, RefusesTheSourcesTablesWhateverTheySayOfTheirSampling) {
   EXPECT_EQ(judge(), Reason::kTableNotCertified);
 }
 
-// Gains of `gains --weights 0.1,1,1e-4,1e-9`: their eigenvalue at one period of delay is 1.105. With the proof of others, or without one.
+// Gains of `gains --weights 0.1,1,1e-4,1e-9`: their eigenvalue at one period of delay is 1.105. With another table's proof or none.
 TEST_F(TableAdmission, RefusesGainsThatAreStableWithoutDelayAlone) {
   const GainTable stiff =
       read_gain_table(STRAINWAVE_SOURCE_DIR "/tests/daemon/admission/stiff_without_delay.json");
@@ -154,7 +154,7 @@ TEST_F(TableAdmission, ProvesNothingOfGainsThatDoNotActAndStillWantsTheJointsOwn
   EXPECT_EQ(judge_without_law().reason, Reason::kTableIdentity);
 }
 
-// N.cm where N.m are meant.
+// Friction in N.cm instead of N.m.
 TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
   for (TemperatureRule& rule : table_.friction.rules) {
     rule.friction.static_Nm *= 100.0;
@@ -189,7 +189,7 @@ class TableAdmissionOnASpring : public ::testing::Test {
  protected:
   GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
 
-  /// On a joint that is told of its gear, csf-17-50, and a link.
+  /// On a joint with a link whose gear is configured as csf-17-50.
   ExpectedJoint joint_of(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089,
                          EncoderSide side = EncoderSide::kMotor) const {
     PlantIdentity plant = table_.plant;
@@ -268,7 +268,7 @@ TEST_F(TableAdmissionOnASpring, RefusesAJointThatIsToldOfADampingOutsideTheBox) 
   expect_outside(judge_damped(1.21, 0.1, 1), "joint.damping_Nms_rad = 1.21");
 }
 
-// With half of its lead the table drives the swing of a light link that is hardly damped.
+// With half of its lead, the table excites the oscillation of a light link with little damping.
 TEST_F(TableAdmissionOnASpring, ReckonsWithTheDampingThatTheJointIsToldOf) {
   table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
   table_.box.lead_periods = 1.0;

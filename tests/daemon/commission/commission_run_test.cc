@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs: seconds each.
+// Complete runs, which take seconds each.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/commission/simulated_arm.h"

@@ -10,7 +10,7 @@ namespace strainwave {
 namespace {
 
 TEST_F(CommissionTest, IsEndedByASignalAndKeepsWhatThereIs) {
-  // Taken as soon as the first step that moves looks for it.
+  // The signal is pending until the first step that moves checks for it.
   ::sigset_t term;
   ::sigemptyset(&term);
   ::sigaddset(&term, SIGTERM);

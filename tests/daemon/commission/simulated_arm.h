@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated joint that is commissioned.
+// A simulated joint for commissioning.
 #pragma once
 
 #include <sstream>

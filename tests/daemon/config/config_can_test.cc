@@ -195,7 +195,7 @@ TEST_F(CanConfigTest, ALimitInFahrenheitIsNamedThoughItIsAboveWhatIsBelieved) {
 }
 
 TEST_F(CanConfigTest, DoubtsNoUnitOfVelocityThatDrivesHave) {
-  // Counts a second; 1 rpm, 0.1 rpm, a millionth of a rpm of the motor (60A9h).
+  // Counts per second; 1 rpm, 0.1 rpm and a millionth of a rpm of the motor (60A9h).
   for (const char* unit : {"1.9635e-5", "0.0020944", "2.0944e-4", "2.09440e-9"})
     for (const std::string& warning :
          read(replaced(example("epos4.toml"), "rated_torque_unit",

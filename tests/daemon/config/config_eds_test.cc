@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped examples against what their vendors' drives have: start-up itself is run against the data sheets.
+// Checks the shipped examples against their vendors' data sheets. Start-up itself runs against the data sheets.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,7 +23,7 @@ class DataSheets : public ConfigFileTest {
   static std::filesystem::path sheet(const std::string& name) {
     return std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "tests/drivers/can/eds" / name;
   }
-  /// Without the object's section.
+  /// `eds` without the object's section.
   static std::string without(const std::string& eds, const std::string& index) {
     std::string kept;
     std::istringstream lines(eds);
@@ -34,7 +34,7 @@ class DataSheets : public ConfigFileTest {
     }
     return kept;
   }
-  /// What start-up would say of the first joint's drive.
+  /// Messages of start-up for the first joint's drive.
   std::string check(const std::string& config, const std::string& eds) {
     std::ostringstream text;
     check_data_sheet(read(config), sheet(eds), text);
@@ -90,7 +90,7 @@ TEST_F(DataSheets, TheExampleForAnEncoderOnTheLinkTakesItsTableAndNoneOfTheMotor
   EXPECT_EQ(text.find("refused"), std::string::npos) << text;
   const JointConfig joint = read(config).joints[0];
   EXPECT_EQ(joint.loop.controller.encoder_side, EncoderSide::kLink);
-  // Where the package puts it.
+  // The package installs the table there.
   const std::filesystem::path tables = STRAINWAVE_SOURCE_DIR "/data/tables";
   ASSERT_TRUE(std::filesystem::exists(tables / joint.table.filename())) << joint.table;
   const auto judged = [&](const std::filesystem::path& name) {
@@ -116,7 +116,7 @@ TEST_F(DataSheets, AnObjectThatCannotBeMappedIsRefusedByItsName) {
 }
 
 TEST_F(DataSheets, AConfiguredDriveIsJudgedByWhatItIsSetTo) {
-  // A DCF of an EPOS4 with node id 7: 6502h, 6076h and the vendor as they were read from the drive.
+  // A DCF of an EPOS4 with node id 7: 6502h, 6076h and the vendor have the values read from the drive.
   std::string dcf = read_text_file(sheet("epos4.eds"));
   for (const auto& [object, value] :
        {std::pair{"[1018sub1]", "0xFB"}, {"[6502]", "0x3A5"}, {"[6076]", "192000"}})
@@ -165,7 +165,7 @@ TEST_F(DataSheets, AnotherVendorsDriveIsRefused) {
   expect_mentions(check(example("epos4.toml"), "elmo_gold.eds"), {"refused", "vendor_id", "0000009Ah"});
 }
 
-// What the profile has for touch probe 1; `lacks`: except this.
+// The profile's objects for touch probe 1, except `lacks`.
 std::string touch_probe(const std::string& lacks = "") {
   struct Object {
     const char* index;
@@ -181,7 +181,7 @@ std::string touch_probe(const std::string& lacks = "") {
   return text;
 }
 
-// The second transmitted PDO's sections once more, as those of the third.
+// The sections of the second transmit PDO, renumbered as those of the third.
 std::string third_pdo(const std::string& eds) {
   std::string text;
   std::istringstream lines(eds);

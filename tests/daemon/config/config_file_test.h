@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of the configuration share: a text becomes a file in a folder of the test's own, and is read as the daemon reads it.
+// Fixture of the configuration tests: writes a text as a file into the test's own folder, and reads it as the daemon does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@ using testing::expect_mentions;
 
 class ConfigFileTest : public ::testing::Test {
  protected:
-  /// An example of config/, whole.
+  /// The text of an example of config/.
   static std::string example(const std::string& name) {
     return read_text_file(std::string(STRAINWAVE_SOURCE_DIR "/config/") + name);
   }
-  /// `text` with the first `from`, which must be there, replaced.
+  /// `text` with its first `from` replaced, which must be there.
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -33,7 +33,7 @@ class ConfigFileTest : public ::testing::Test {
     std::ofstream(folder_ / "c.toml") << text;
     return read_config(folder_ / "c.toml");
   }
-  /// Why `text` is refused.
+  /// The refusal of `text`.
   std::string error_of(const std::string& text) {
     return testing::refusal_of([&] { ConfigFileTest::read(text); });
   }

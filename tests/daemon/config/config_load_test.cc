@@ -13,7 +13,7 @@ class LoadConfigTest : public ConfigFileTest {
     return replaced(replaced(example("demo.toml"), "acceleration_rad_s2 = 30 ", limits + "\n#"),
                     "[joint.simulated]", "[joint.control]\n" + control + "\n[joint.simulated]");
   }
-  /// Likewise, flexible, motor and load together of the same inertia.
+  /// The same for a flexible joint whose motor and load together have the same inertia.
   static std::string flexible_with(const std::string& limits, const std::string& control) {
     return replaced(replaced(joint_with(limits, control), "inertia_kgm2 = 0.089",
                              "motor_inertia_kgm2 = 0.049\nload_inertia_kgm2 = 0.04\ngear = \"csf-17-50\""),

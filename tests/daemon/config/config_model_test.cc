@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// joint.model: what a flexible and a rigid joint are made of, and what is refused of each.
+// joint.model: the keys of flexible and rigid joints, and the refusals for each.
 #include "tests/daemon/config/config_file_test.h"
 
 namespace strainwave {
@@ -127,12 +127,12 @@ TEST_F(ModelConfigTest, TakesDampingUpToHalfOfCriticalAndElseDoesNotKnowIt) {
   EXPECT_EQ(joint_of(flexible()).loop.controller.link->damping_Nms_rad, 0.0);
   EXPECT_EQ(joint_of(damped("0.8")).loop.controller.link->damping_Nms_rad, 0.8);
   EXPECT_EQ(joint_of(damped("19.5")).loop.controller.link->damping_Nms_rad, 19.5);
-  // Half of 2 sqrt(K / (1 / Jm + 1 / Jl)), K the gear's first slope.
+  // Half of 2 sqrt(K / (1 / Jm + 1 / Jl)), where K is the gear's first slope.
   expect_mentions(error_of(damped("19.6")), {"joint[0].damping_Nms_rad = 19.6", "from 0 to 19.53"});
   expect_mentions(error_of(damped("-1.0")), {"joint[0].damping_Nms_rad = -1", "from 0"});
 }
 
-// The controller counts as the drive does; homing moves what comes from outside, and not the weight.
+// The controller counts positions as the drive does. Homing shifts positions from outside, but not the weight.
 TEST_F(ModelConfigTest, RefusesAWeightWherePositionsAreFoundByHoming) {
   const std::string homing = "\n[joint.homing]\nto = \"stop\"\nstop_torque_Nm = 3.0\n";
   EXPECT_NO_THROW(read(flexible() + homing));

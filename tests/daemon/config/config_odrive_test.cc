@@ -11,7 +11,7 @@ namespace {
 class OdriveConfigTest : public ConfigFileTest {
  protected:
   OdriveConfigTest() { testing::write_authorized_keys(folder_); }
-  /// The example with `from` replaced; empty: as it is.
+  /// The example with `from` replaced; unchanged if `from` is empty.
   DaemonConfig read_with(const std::string& from = "", const std::string& to = "") {
     return read(replaced(example("odrive.toml"), from, to));
   }
@@ -71,7 +71,7 @@ TEST_F(OdriveConfigTest, ReadsTheLoopThatTheDriveClosesAndWhetherItsOrdersFit) {
   EXPECT_EQ(drive_of(config).drive_mode, DriveMode::kPosition);
   EXPECT_EQ(config.joints[0].loop.controller.drive_mode, DriveMode::kPosition);
   EXPECT_EQ(config.joints[0].loop.controller.delay_periods, 0);
-  // 6 rad/s are 47.7 turns of the motor in a second, more than 32.767.
+  // 6 rad/s are 47.7 turns of the motor per second, above the limit of 32.767.
   const std::string fast = replaced(replaced(example("odrive.toml"), "torque_side = \"motor\"", position),
                                     "speed_limit_rad_s = 4.0", "speed_limit_rad_s = 6.0");
   expect_mentions(error_of(fast), {"input_vel_scale", "686", "speed_limit_rad_s = 6"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulated joint with a spring may be, and what its controller may be told of it.
+// Allowed settings of a simulated joint with a spring, and of its controller.
 #include "sim/joint/reference_plant.h"
 #include "tests/daemon/config/config_file_test.h"
 
@@ -8,11 +8,11 @@ namespace {
 
 class SimulatedConfigTest : public ConfigFileTest {
  protected:
-  /// The demo's joint with these keys of [joint.simulated], and tables below it: one inertia.
+  /// The demo's joint, with one inertia, these keys of [joint.simulated], and tables below it.
   static std::string rigid_with(const std::string& tables, const std::string& keys = "") {
     return example("demo.toml") + keys + tables;
   }
-  /// Likewise of a flexible joint.
+  /// The same for a flexible joint.
   static std::string flexible_with(const std::string& tables, const std::string& keys = "") {
     return replaced(replaced(rigid_with(tables, keys), "inertia_kgm2 = 0.089",
                              "motor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.1\ngear = \"csf-17-50\"\n"
@@ -153,7 +153,7 @@ TEST_F(SimulatedConfigTest, RefusesGearsAndSpringsThatCannotBe) {
   expect_mentions(
       error_of(joint_with(link("[joint.simulated.spring]\ntorque_1_Nm = 20\ntorque_2_Nm = 10\n"))),
       {"joint[0].simulated.spring.torque_2_Nm = 10", "from 20"});
-  // A slope that no torque has.
+  // A slope that no torque reaches.
   const auto without_gear = [](const std::string& slope) {
     const std::string one_slope = link("[joint.simulated.spring]\nstiffness_1_Nm_rad = 8100\n" + slope);
     return replaced(joint_with(one_slope), "gear = \"csf-17-50\"\n", "");

@@ -216,14 +216,14 @@ TEST_F(ConfigTest, EveryShippedExampleIsSoundAndTakesTheTableThatItNames) {
   int found = 0;
   for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/config")) {
     if (entry.path().extension() != ".toml") continue;
-    // A copy, beside which the keys lie that a real joint needs.
+    // A copy beside the keys that a real joint needs.
     std::filesystem::copy_file(entry.path(), folder_ / entry.path().filename());
     testing::write_authorized_keys(folder_);
     const DaemonConfig config = read_config(folder_ / entry.path().filename());
     ++found;
     for (const JointConfig& joint : config.joints) {
       if (joint.table.empty()) continue;
-      // The package has the source tree's folder data/tables.
+      // The package installs the source tree's folder data/tables.
       const std::string named = joint.table;
       const std::string file = STRAINWAVE_SOURCE_DIR + named.substr(named.find("/data/tables/"));
       const TableVerdict verdict = judge_table(read_gain_table(file), expected_joint(joint));

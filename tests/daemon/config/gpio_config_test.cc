@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused
-// by name.
+// [joint.gpio], [joint.homing] and [joint.thermometer]: the example is valid, and impossible values are
+// refused by name.
 
 #include <sstream>
 
@@ -19,7 +19,7 @@ class GpioConfig : public ConfigFileTest {
   std::string replaced(const std::string& from, const std::string& to) const {
     return ConfigFileTest::replaced(example_, from, to);
   }
-  /// Without the table [name] and all that belongs to it.
+  /// The example without the table [name] and its keys.
   std::string without(const std::string& name) const {
     const std::size_t begin = example_.find("[" + name + "]");
     EXPECT_NE(begin, std::string::npos) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// config/reference.toml names every key that the configuration code asks for, and nothing else.
+// config/reference.toml contains every key that the configuration code reads, and no other.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace strainwave {
 namespace {
 
-// Keys that the code reads: the literal in section.number_or("key", ...) and its kin.
+// Keys that the code reads: the literal in section.number_or("key", ...) and similar calls.
 std::set<std::string> keys_in_code() {
   const std::regex asks(
       R"re(\b(?:number|number_or|integer|integer_or|boolean_or|text|text_or|choice|choice_or|numbers|section|section_or_empty|sections|read_name)\(\s*(?:\w+,\s*)?"([A-Za-z0-9_]+)")re");

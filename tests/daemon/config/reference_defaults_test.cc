@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// config/reference.toml shows the defaults: without the keys that are not required, the daemon reads the same configuration.
+// config/reference.toml shows the defaults: without its optional keys, the daemon reads the same configuration.
 #include <cmath>
 #include <map>
 #include <regex>
@@ -99,7 +99,7 @@ Values values_of(const DaemonConfig& config) {
 
 class ReferenceDefaults : public ConfigFileTest {
  protected:
-  /// The reference without its optional keys; `optional_` has their full names.
+  /// The reference without its optional keys, whose full names are then in `optional_`.
   std::string required_part() {
     const std::regex assignment(R"(^([A-Za-z0-9_]+) = [^#]*#?(.*))");
     const std::regex header(R"(^\[+([a-z_.]+)\]+)");
@@ -120,7 +120,7 @@ class ReferenceDefaults : public ConfigFileTest {
   std::set<std::string> optional_;
 };
 
-// What is computed or read when the daemon starts, and so is not in what it reads here.
+// Values that are computed or read when the daemon starts, and are not in the configuration as read here.
 const std::set<std::string> kAtStart = {"joint.limits.load_Nm", "joint.limits.load_notice_Nm",
                                         "joint.simulated.ambient_temperature_C",
                                         "joint.simulated.load_torque_Nm"};

@@ -23,7 +23,7 @@ struct Ended {
   std::string said;
 };
 
-/// By this build: an older one may have left the program of `command` in the folder.
+/// Whether this build has the program: an older build may have left one in the folder.
 bool is_built(std::string_view command) {
   constexpr std::string_view kNotBuilt = STRAINWAVE_NOT_BUILT;
   return kNotBuilt.find(command.substr(0, command.find(' '))) == std::string_view::npos;
@@ -41,7 +41,7 @@ Ended run(const std::string& command) {
   return ended;
 }
 
-/// The last line is the answer; doubts may stand before it.
+/// The last line is the answer. Warnings may precede it.
 std::string last_line(const std::string& text) {
   const std::string lines = text.substr(0, text.find_last_not_of('\n') + 1);
   return lines.substr(lines.rfind('\n') + 1);
@@ -99,7 +99,7 @@ struct ConfigCase {
 };
 
 const std::vector<ConfigCase> kConfigCases{
-    // A key that was mistyped: its place, and the nearest that is right.
+    // A mistyped key: the answer has its place and the nearest correct key.
     {"period_s = 0.001", "period = 0.001", {":2: daemon.period = 0.001", "did you mean period_s?"}},
     {"prefix", "prefx", {":3: daemon.prefx = \"LAB\"", "did you mean prefix?"}},
     {"speed_limit_rad_s = 6.0",
@@ -120,7 +120,7 @@ const std::vector<ConfigCase> kConfigCases{
      {"following_error_rad is missing", "line 20 has folowing_error_rad"}},
     {"driver =", "drivers =", {"joint[0].driver is missing", "line 13 has drivers"}},
     {"joint_model", "joint_modl", {"joint[0].joint_model is missing: the key is required"}},
-    // What the joint is.
+    // The joint's model.
     {"model = \"rigid\"\n",
      "",
      {":8: joint[0].model is missing", "model = \"flexible\", gear = ", "mass times lever squared",
@@ -159,7 +159,7 @@ const std::vector<ConfigCase> kConfigCases{
     {"[daemon]", "[deamon]", {"deamon = (a table)", "did you mean daemon?"}},
     {"[[joint]]", "[[joints]]", {"joint", "[[joint]] with two brackets"}},
     {"[security]", "[secuirty]", {":5: secuirty = (a table)", "did you mean security?"}},
-    // A value of the wrong kind.
+    // A value of the wrong type.
     {"torque_limit_Nm = 34",
      "torque_limit_Nm = \"34\"",
      {":21: joint[0].limits.torque_limit_Nm = \"34\"", "a number from", "without quotes"}},
@@ -239,7 +239,7 @@ const std::vector<ConfigCase> kConfigCases{
      {":23: joint[0].control.initial_load_Nm = 1e+06", "a number from -34 to 34 is allowed"}},
     {"\"sine:15,25,1\"", "\"sine:15\"", {":24: joint[0].simulated.ambient_temperature_C = \"sine:15\""}},
     {"\"sine:15,25,1\"", "\"constant:-300\"", {"ambient_temperature_C = \"constant:-300\""}},
-    // Where LCM's messages go.
+    // The network of LCM's messages.
     {"period_s = 0.001",
      "period_s = 0.001\nlcm_url = \"239.255.76.67:7667\"",
      {":3: daemon.lcm_url = \"239.255.76.67:7667\"", "udpm://GROUP:PORT?ttl=N"}},
@@ -261,7 +261,7 @@ const std::vector<ConfigCase> kConfigCases{
     {"period_s = 0.001",
      "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:7667?ttl=far\"",
      {"'ttl=far'", "from 0 (this machine alone) to 255"}},
-    // What is no TOML.
+    // Invalid TOML.
     {"prefix = \"LAB\"", "prefix = LAB", {":3: not valid TOML"}},
     {"[[joint]]", "[[joint", {":8: not valid TOML"}},
     {"gear_ratio = 50", "gear_ratio = 50\ngear_ratio = 51", {":13: not valid TOML", "gear_ratio"}},
@@ -283,7 +283,7 @@ class WrongInput : public ::testing::Test {
     std::ofstream(path) << text.replace(at, from.size(), to);
   }
   Ended check() const { return run("strainwaved --check --config " + file_.string()); }
-  /// The sound file with this line before the joint's limits.
+  /// Writes the sound file with this line before the joint's limits.
   void write_joint_with(const std::string& line) const {
     write(file_, kSound, "driver = \"simulated\"\n", "driver = \"simulated\"\n" + line + "\n");
   }
@@ -312,7 +312,7 @@ TEST_F(WrongInput, IsNotFoundInASoundConfiguration) {
   EXPECT_NE(ended.said.find("not checked: real-time privileges"), std::string::npos) << ended.said;
 }
 
-/// Allowed, and yet rarely meant.
+/// Allowed, but rarely intended.
 const std::vector<ConfigCase> kDoubtCases{
     {"position_max_rad = 3.2",
      "position_max_rad = 180",
@@ -428,7 +428,7 @@ TEST_F(WrongInput, ATorqueLimitThatFrictionTakesIsDoubtedWithWhatWouldDo) {
   const std::string stuck = limited("2");
   EXPECT_NE(stuck.find("warning: elbow: torque limit 2 N.m"), std::string::npos) << stuck;
   EXPECT_NE(stuck.find("the joint does not move there; "), std::string::npos) << stuck;
-  // What it says would do, does; a little less does not.
+  // The suggested value works, and a slightly smaller one does not.
   const double enough_Nm = std::stod(stuck.substr(stuck.find("not move there; ") + 16));
   EXPECT_EQ(limited(std::to_string(enough_Nm * 1.001)).find("warning"), std::string::npos);
   EXPECT_NE(limited(std::to_string(enough_Nm * 0.97)).find("hardly any is left to move"), std::string::npos);
@@ -450,7 +450,7 @@ TEST_F(WrongInput, AnAccelerationThatNoTorqueAffordsIsDoubtedWithWhatIsAfforded)
   EXPECT_EQ(with("381").find("warning"), std::string::npos) << with("381");
 }
 
-// Its table is for links of up to 0.3 kg m2, its own is 0.1: 34 N.m are 179.9 rad/s2.
+// The table is for links of up to 0.3 kg m2, the joint's link has 0.1: 34 N.m are 179.9 rad/s2.
 TEST_F(WrongInput, AnAccelerationOfAFlexibleJointIsDoubtedByItsOwnInertias) {
   std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json", table_);
   const auto with = [&](const std::string& acceleration_rad_s2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a gateway that was taken over can still do. Each case is a process of its own that confines itself.
+// The remaining abilities of a gateway that an attacker controls. Each case is a process that confines itself.
 #include "daemon/gateway/confinement.h"
 
 #include <fcntl.h>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr unsigned int kKeptDescriptors = 3;
 
-/// Ends with 0 when `attempt` returned false (refused), else with 1.
+/// Exits with 0 if `attempt` returned false (refused), else with 1.
 template <typename Attempt>
 [[noreturn]] void try_confined(const Attempt& attempt) {
   give_up_privileges(-1, -1, kKeptDescriptors);
@@ -140,7 +140,7 @@ class ExportedFilter {
     EXPECT_GT(::pread(file, program_.data(), program_.size() * sizeof(sock_filter), 0), 0);
     ::close(file);
   }
-  /// What becomes of a call with these arguments: SECCOMP_RET_...
+  /// The filter's verdict on a call with these arguments: SECCOMP_RET_...
   std::uint32_t judge(int number, std::uint64_t first = 0, std::uint64_t third = 0) const {
     seccomp_data data{};
     data.nr = number;
@@ -187,7 +187,7 @@ class ExportedFilter {
   std::vector<sock_filter> program_;
 };
 
-// Numbers of Linux's arch/arm/tools/syscall.tbl: a 32-bit C library asks for times of 64 bits first.
+// Numbers from Linux's arch/arm/tools/syscall.tbl. A 32-bit C library first tries the calls with 64-bit times.
 TEST_F(Confinement, AllowsOn32BitArmWhatItsCLibraryCalls) {
   const ExportedFilter filter(AUDIT_ARCH_ARM);
   for (const int number :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gateway's restarts, with programs that end at once or never.
+// Restarts of the gateway, with programs that end at once or never.
 #include "daemon/gateway/gateway_process.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-/// A program that never ends by itself.
+/// A program that does not end by itself.
 class EndlessProgram {
  public:
   EndlessProgram() {
@@ -43,7 +43,7 @@ class EndlessProgram {
   TemporaryFolder folder_;
 };
 
-/// Waits for the end of the child, which takes real time; the clock of the back-off is `now_ns`.
+/// Waits for the end of the child, which takes real time. The back-off uses the clock `now_ns`.
 std::string wait_for_end(GatewayProcess& gateway, std::int64_t now_ns) {
   for (int i = 0; i < 1000; ++i) {
     if (const auto end = gateway.take_end(now_ns)) return *end;
@@ -88,7 +88,7 @@ TEST(GatewayProcess, IsQuickAgainAfterALifeLongEnough) {
   EXPECT_EQ(wait_until_due_ms(gateway, now_ns), 100);
 }
 
-// An upgrade of the package puts another file in its place while the daemon runs.
+// An upgrade of the package replaces the file while the daemon runs.
 TEST(GatewayProcess, GoesOnWithTheProgramItHasOpened) {
   const EndlessProgram program;
   GatewayProcess gateway(program.path(), {0, 1, 2});
@@ -118,7 +118,7 @@ TEST(GatewayProcess, TakesItsChildAlong) {
   EXPECT_EQ(::kill(pid, 0), -1);
 }
 
-/// What a service manager does: takes connections to a socket.
+/// Accepts connections to a socket, like a service manager.
 class ServiceSocket {
  public:
   ServiceSocket() : listener_(::socket(AF_UNIX, SOCK_STREAM, 0)) {

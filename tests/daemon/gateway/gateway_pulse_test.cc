@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-/// How long after `from_ns` the pulse says that a gateway started at `started_ns`, whose turns stay what they are, hangs; ms.
+/// Time in ms from `from_ns` until the pulse reports that a gateway hangs. It started at `started_ns`, and its turns do not change.
 std::int64_t hangs_after_ms(GatewayPulse& pulse, std::int64_t started_ns, std::uint64_t turns,
                             std::int64_t from_ns) {
   for (std::int64_t ms = 0; ms < 20'000; ++ms)

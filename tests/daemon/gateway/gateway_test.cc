@@ -41,7 +41,7 @@ class GatewayTurn : public ::testing::Test {
     ::close(wake_[1]);
   }
 
-  /// What the core wrote while the gateway got no processor.
+  /// States that the core wrote while the gateway had no processor time.
   void write_states(std::uint64_t how_many) {
     for (std::uint64_t i = 0; i < how_many; ++i) outbound_->states.write(StateRecord{});
   }
@@ -61,7 +61,7 @@ class GatewayTurn : public ::testing::Test {
   int answers_ = 0;
 };
 
-// On a machine under load it published 8192 states before it looked for a stop, for two seconds and more, and was ended as hung.
+// Once, on a loaded machine, it published 8192 states before it looked for a stop, which took over two seconds. It was ended as hung.
 TEST_F(GatewayTurn, EndsThoughManyStatesWait) {
   write_states(1000);
   gateway_->turn(0);

@@ -72,7 +72,7 @@ TEST(OrderQueue, TakesTheRoomFromWhoHasMostWhenItIsFull) {
   EXPECT_EQ(queue.queue().crowded_out(), 85U);
   EXPECT_EQ(queue.pop(), "0");
   EXPECT_EQ(queue.pop(), "quiet");
-  // The loud one lost its newest.
+  // The loud source lost its newest messages.
   for (int i = 1; i < 15; ++i) EXPECT_EQ(queue.pop(), std::to_string(i));
   EXPECT_EQ(queue.pop(), "none");
 }

@@ -30,7 +30,7 @@ TEST(Preference, IsOfTheThreadThatAsksAndOfNoOther) {
 [[noreturn]] void ask_without_the_right() {
   const rlimit none{0, 0};
   (void)::setrlimit(RLIMIT_NICE, &none);
-  // Whoever runs this before others may ask for less than he has.
+  // If the test runs with a higher priority, it may ask for less than it has.
   (void)::setpriority(PRIO_PROCESS, 0, 0);
   if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
   const std::string refusal = prefer_this_thread();

@@ -25,7 +25,7 @@ TEST(WakePipe, IsReadableFromAWakeUntilItIsTaken) {
   EXPECT_FALSE(readable(pipe));
 }
 
-// What hung the supervisor when both shared one eventfd. A test that hangs here fails by its time limit.
+// This hung the supervisor when both ends shared one eventfd. A test that hangs here fails by its time limit.
 TEST(WakePipe, NeverWaitsWhateverTheOtherEndDoesToItself) {
   WakePipe pipe;
   ASSERT_EQ(::fcntl(pipe.gateway_end(), F_SETFL, 0), 0);

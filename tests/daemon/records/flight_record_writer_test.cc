@@ -33,7 +33,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return parts;
 }
 
-/// What stands in a row below a name.
+/// The value of a row below a column name.
 std::string value_in(const std::string& row, const std::string& names, const char* name) {
   const auto columns = split(names, ',');
   return split(row, ',').at(
@@ -64,7 +64,7 @@ class FlightRecordWriterTest : public ::testing::Test {
               (lost ? lost_ : written_).push_back(text);
             }};
   }
-  /// A fault after `count` good samples.
+  /// Records a fault after `count` good samples.
   void fault(FlightRecorder& recorder, int count = 50, std::uint8_t number = 13) {
     FlightSample sample;
     sample.time_ns = now_ns_;
@@ -90,7 +90,7 @@ class FlightRecordWriterTest : public ::testing::Test {
     return total;
   }
 
-  std::vector<std::string> written_;  ///< what the writer told
+  std::vector<std::string> written_;  ///< messages of the writer
   std::vector<std::string> lost_;
   TemporaryFolder temporary_;
   RecorderConfig config_;
@@ -179,7 +179,7 @@ TEST_F(FlightRecordWriterTest, WritesOneJointNoMoreOftenThanTheInterval) {
   config_.min_interval_s = 5.0;
   FlightRecordWriter records = writer();
   for (int i = 0; i < 50; ++i) {
-    fault(elbow_);  // each 0.1 s
+    fault(elbow_);  // 0.1 s later each time
     records.turn(now_ns_);
   }
   EXPECT_EQ(files().size(), 1U);

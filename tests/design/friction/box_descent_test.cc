@@ -8,7 +8,7 @@
 namespace strainwave {
 namespace {
 
-// Rosenbrock's valley, its minimum 0 at (0.75, 0.75) of the unit box; no curvature given.
+// Rosenbrock's valley with its minimum 0 at (0.75, 0.75) of the unit box. It provides no curvature.
 void rosenbrock(const Eigen::VectorXd& x, CostSample& sample) {
   const double a = 4.0 * x(0) - 2.0, b = 4.0 * x(1) - 2.0;
   sample.value = 100.0 * std::pow(b - a * a, 2) + std::pow(1.0 - a, 2);

@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path kData = STRAINWAVE_SOURCE_DIR "/data";
 
-// Half a unit of the last digit that the source prints: 5 significant digits for viscous, 4 decimals for the others.
+// Half a unit of the last printed digit of the source: 5 significant digits for viscous friction, 4 decimals for the rest.
 double printed_viscous_error(double value) {
   return 0.51 * std::pow(10.0, std::floor(std::log10(value)) - 4.0);
 }
@@ -32,8 +32,7 @@ TEST(Catalogue, ReproducesTheSourcesParametersToThePrintedDigits) {
     EXPECT_NEAR(point.motor_viscous_Ncm_per_rpm, row[1], printed_viscous_error(row[1]))
         << point.temperature_C;
     EXPECT_NEAR(point.motor_coulomb_Ncm, row[2], 0.51e-4) << point.temperature_C;
-    // The source takes 1.5 and 1.55 N.cm of starting torque at 15 and 17.5 degC, 1.6 elsewhere (one value
-    // printed with 3 decimals).
+    // The source uses 1.5 and 1.55 N.cm of starting torque at 15 and 17.5 degC, and 1.6 elsewhere. One value is printed with 3 decimals.
     const double starting = row[0] == 15.0 ? 1.5 : row[0] == 17.5 ? 1.55 : 1.6;
     EXPECT_NEAR(point.motor_static_Ncm, row[3] + 1.6 - starting, 4e-4) << point.temperature_C;
   }
@@ -93,7 +92,7 @@ TEST_F(CatalogueFile, AStartingTorqueIsWhatCataloguesPrintCoulombFrictionInclude
   const std::filesystem::path path = temporary_.path() / "starting.csv";
   std::ofstream(path) << "temperature_C,torque_1rpm_Ncm,torque_2rpm_Ncm,starting_torque_Ncm\n0,1,1,1.5\n5,1,"
                          "1,1.25\n10,1,1,1\n";
-  const FrictionData data = read_catalogue(path, 99.0);  // the column counts before the option
+  const FrictionData data = read_catalogue(path, 99.0);  // the column overrides the option
   EXPECT_EQ(data.points[0].motor_static_Ncm, 1.5);
   EXPECT_EQ(data.points[1].motor_static_Ncm, 1.25);
   EXPECT_TRUE(data.has_starting_torque);

@@ -13,7 +13,7 @@ FitProblem source_problem() {
   return {fit_targets(data), friction_metric(FitWeighting::kTorque, data.motor_speeds_rpm), true};
 }
 
-// The memberships of the shipped table: a narrow rule amid a wide one, so that rules which fall make a curve that rises.
+// The memberships of the shipped table. A narrow rule lies within a wide one, so that falling rules make a curve that rises.
 const Eigen::VectorXd kCenter{{-11.444431634, -11.444431633, 2.303429499, 2.7262053995, 5.025291984}};
 const Eigen::VectorXd kWidth{{2.4998621, 10.2533655, 8.4154939, 2.4585181, 8.281497}};
 

@@ -15,7 +15,7 @@ FitProblem source_problem(bool physical) {
 
 constexpr int kSeeds = 20;
 
-// Stops as soon as the target is met: whether the search reaches it is the question, not how far it would go.
+// Counts the searches that reach the target. Each search stops there, because a better result does not matter.
 template <typename Run>
 int count_reached(double target, EpgsOptions options, const Run& run) {
   options.known_optimum = target;

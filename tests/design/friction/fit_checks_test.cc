@@ -33,7 +33,7 @@ TEST(FitChecks, FindNoOutlierInTheSourcesCatalogueNorInTheLawItself) {
   EXPECT_TRUE(find_outliers(exact, kLow_C, kHigh_C).empty());
 }
 
-// A cell of the catalogue, ten times too large, changes the intercept and the slope of its line over speed.
+// A catalogue value that is ten times too large changes the intercept and the slope of its line over speed.
 TEST(FitChecks, FindTheTemperatureOfAnyCellThatIsTenTimesTooLarge) {
   const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv");
   const std::vector<double>& speeds = data.motor_speeds_rpm;
@@ -62,7 +62,7 @@ TEST(FitChecks, FindTwoTemperaturesThatHideEachOther) {
   const double mean = 1750.0;
   double squares = 0.0;
   for (const double speed : data.motor_speeds_rpm) squares += (speed - mean) * (speed - mean);
-  // The second of four speeds, ten times too large.
+  // The value at the second of four speeds is ten times too large.
   const double speed = data.motor_speeds_rpm[1];
   int pairs = 0;
   for (Eigen::Index first = 0; first < 21; first += 3)

@@ -59,7 +59,7 @@ TEST(FrictionFit, TheSourcesTable4CostsWhatTheTheoryPageSays) {
   EXPECT_LT(fit_consequents(problem, table4.center_C, table4.width_C).cost, 0.2567);
 }
 
-// The derivatives against central differences of the projected cost; twelve digits of the cost, so a step of 1e-5.
+// Compares the derivatives with central differences of the projected cost. The cost has twelve digits, so the step is 1e-5.
 TEST(FrictionFit, GradientsAreTheDerivativesOfTheProjectedCost) {
   std::mt19937_64 random(1);
   int constrained = 0;
@@ -83,7 +83,7 @@ TEST(FrictionFit, GradientsAreTheDerivativesOfTheProjectedCost) {
       }
     }
   }
-  EXPECT_GT(constrained, 20);  // the envelope theorem was needed
+  EXPECT_GT(constrained, 20);  // the fits had active constraints, so that the envelope theorem mattered
 }
 
 TEST(FrictionFit, CurvatureIsSymmetricAndNotNegative) {

@@ -34,7 +34,7 @@ TEST(FrictionRegression, RecoversWhatMadeThePoints) {
   EXPECT_EQ(fit.degrees_of_freedom, 6);
 }
 
-/// How often the interval holds the truth.
+/// Number of intervals that contain the true value.
 struct Coverage {
   int static_hits = 0, coulomb_hits = 0, viscous_hits = 0;
 };
@@ -60,7 +60,7 @@ TEST(FrictionRegression, ItsIntervalsHoldTheTruthAsOftenAsTheySay) {
   }
 }
 
-/// How many of 200 joints have their friction within the intervals; each has a torque constant of its own, with this relative standard
+/// Returns for how many of 200 joints the intervals contain the true friction. Each joint has its own torque constant, with this relative standard
 /// deviation.
 Coverage of_other_joints(double torque_deviation, double torque_uncertainty) {
   std::mt19937_64 random(11);
@@ -88,8 +88,8 @@ TEST(FrictionRegression, ATorqueConstantThatIsOffWidensItsIntervals) {
   EXPECT_LT(of_other_joints(0.02, 0.002).coulomb_hits, 150) << "the test would show nothing";
 }
 
-/// Share of intervals that hold the true static friction where one slow point determines it and every torque is off by
-/// itself by one per cent: the residuals of the others say nothing of it.
+/// Share of intervals that contain the true static friction. A single slow point with 1 % torque error determines it. The other points have small
+/// errors, so that their residuals do not reveal that error.
 double static_coverage(double torque_uncertainty, std::uint64_t seed) {
   constexpr int kTrials = 500;
   std::mt19937_64 random(seed);

@@ -51,7 +51,7 @@ TEST(FrictionUpdate, WithoutMeasurementsIsThePrior) {
   for (const double T : {-10.0, 5.0, 40.0}) {
     const Interval friction = update.friction_Nm(T, 1.0);
     EXPECT_NEAR(friction.value, friction_Nm(catalogue(), T, 1.0), 1e-6 * friction.value);
-    // Coulomb and viscous friction deviate independently of each other, each by about 30 %.
+    // Coulomb and viscous friction deviate independently, each by about 30 %.
     EXPECT_GT(friction.half_width, 0.2 * friction.value) << T;
     EXPECT_LT(friction.half_width, 0.33 * friction.value) << T;
   }
@@ -65,7 +65,7 @@ TEST(FrictionUpdate, CarriesACommonDeviationToTemperaturesThatWereNotMeasured) {
     const double wanted = friction_Nm(truth, T, 1.2);
     EXPECT_NEAR(update.friction_Nm(T, 1.2).value, wanted, 0.05 * wanted) << T;
   }
-  // It knows where it guesses.
+  // The update reports larger intervals where it extrapolates.
   const auto relative = [&](double T) {
     const Interval friction = update.friction_Nm(T, 1.2);
     return friction.half_width / friction.value;
@@ -75,7 +75,7 @@ TEST(FrictionUpdate, CarriesACommonDeviationToTemperaturesThatWereNotMeasured) {
 }
 
 TEST(FrictionUpdate, BelievesMeasurementsOverThePriorWhereThereAreMany) {
-  // A temperature law of another shape than the catalogue's.
+  // The temperature law has another shape than the catalogue's.
   FuzzyFriction truth = catalogue();
   for (int i = 0; i < truth.rule_count; ++i)
     truth.rules[static_cast<std::size_t>(i)].friction.viscous_Nms_rad *= 1.4 - 0.1 * i;
@@ -95,8 +95,7 @@ TEST(FrictionUpdate, ItsDeviationsAreThoseOfItsErrorsWhenThePriorIsTrue) {
   constexpr int kTrials = 1500;
   int hits = 0, all = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // A joint whose three kinds of parameter deviate from the catalogue by the common deviation each, which
-    // the prior knows.
+    // The breakaway, Coulomb and viscous parameters of the joint each deviate from the catalogue by the common deviation that the prior assumes.
     FuzzyFriction truth = catalogue();
     const double breakaway = normal(random), coulomb = normal(random), viscous = normal(random);
     for (TemperatureRule& rule : truth.rules) {

@@ -12,13 +12,13 @@ namespace {
 constexpr double kInertia_kgm2 = 0.089;
 constexpr double kStep_s = 0.005;
 
-/// A recording that is made leg by leg.
+/// A recording that is built leg by leg.
 class Recording {
  public:
   using Torque = std::function<double(double position_rad, double velocity_rad_s)>;
   explicit Recording(Torque torque) : torque_(std::move(torque)) {}
 
-  /// To `target_rad` at a constant speed; the joint's own speed may differ by a factor that depends on the time.
+  /// Moves the setpoint to `target_rad` at a constant speed. `factor` scales the joint's true speed over time.
   void leg(
       double target_rad, double speed_rad_s,
       const std::function<double(double)>& factor = [](double) { return 1.0; }) {
@@ -108,7 +108,7 @@ TEST(SteadySpeed, RejectsASpeedThatRipplesTooFastToShowInThePosition) {
 }
 
 TEST(SteadySpeed, RejectsAJointThatStillAccelerates) {
-  // Little torque, and a speed that rises by a few per cent: much of the torque is the inertia's.
+  // The torque is small and the speed rises by a few per cent, so that inertia takes much of the torque.
   Recording recording([](double, double v) { return std::copysign(0.05, v); });
   const auto rising = [](double t) { return 0.99 + 0.02 * t; };
   recording.leg(3.0, 3.0, rising);

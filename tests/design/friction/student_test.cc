@@ -6,7 +6,7 @@
 namespace strainwave {
 namespace {
 
-// Tables of the distribution, two-sided.
+// Values from two-sided tables of the distribution.
 TEST(Student, GivesTheTabulatedQuantiles) {
   EXPECT_NEAR(student_t(0.95, 1), 12.7062, 1e-3);
   EXPECT_NEAR(student_t(0.95, 2), 4.30265, 1e-4);

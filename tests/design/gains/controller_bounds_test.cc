@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Theorems 2 and 3: bounds on torque and outputs hold from every vertex of the box of initial states.
+// Theorems 2 and 3: the bounds on torque and outputs hold from every vertex of the box of initial states.
 #include <gtest/gtest.h>
 
 #include "design/gains/controller_lmi.h"
@@ -78,8 +78,8 @@ TEST(ControllerBounds, LessTorqueNeverCostsLess) {
   }
 }
 
-// The paper's form: mu fixed, lambda minimised, bound mu^2 lambda; a limit in N.m needs a search over mu.
-// Written out here as an independent judge of the form in controller_lmi.h, which needs none.
+// The paper's form fixes mu and minimises lambda, with the bound mu^2 lambda. A limit in N.m then needs a search over mu. It is repeated here as an
+// independent check of controller_lmi.h, which needs no search.
 double lambda_of_mu(const ControllerProblem& problem, double mu) {
   LmiProblem lmi;
   const AffineMatrix lambda = lmi.scalar(), Q = lmi.symmetric(2), G = lmi.matrix(2, 2), M = lmi.matrix(1, 2);
@@ -105,7 +105,7 @@ double lambda_of_mu(const ControllerProblem& problem, double mu) {
 }
 
 TEST(ControllerBounds, OneSolveGivesWhatTheSearchOverMuConvergesTo) {
-  // A double integrator in units near one, so that the unbalanced form is solved well too.
+  // A double integrator in units near one, so that the solver also handles the unbalanced form well.
   ControllerProblem problem;
   for (const double viscous : {0.0, 0.3}) {
     Eigen::Matrix2d A;
@@ -120,7 +120,7 @@ TEST(ControllerBounds, OneSolveGivesWhatTheSearchOverMuConvergesTo) {
   problem.input_limit = 1.2;
   const ControllerSolution solution = solve_controller(problem);
   ASSERT_EQ(solution.status, SdpStatus::kSolved) << solution.explanation;
-  // lambda falls with mu, and mu^2 lambda = limit^2 at the optimum: bisect.
+  // lambda falls with mu, and mu^2 lambda = limit^2 at the optimum, so the test bisects.
   double low = 0.05, high = 5.0;
   for (int i = 0; i < 40; ++i) {
     const double mu = 0.5 * (low + high);

@@ -18,8 +18,8 @@ std::string message_of(Controller controller, const DesignRequest& request) {
   return testing::refusal_of([&] { design_gains(controller, request); });
 }
 
-// docs/theory.md, section 7, without the margin. The cost is 18.37144; gains within 1e-3 of these change it
-// by less than 1e-6 relative: the last digit of a gain is beyond what the optimum determines.
+// docs/theory.md, section 7, without the margin. The cost is 18.37144. Gains within 1e-3 of these change it by less than 1e-6 relative, so the
+// optimum does not determine the last digit of a gain.
 TEST(ControllerDesign, GivesTheReferenceCase) {
   DesignRequest request = reference_request();
   request.sampling = Sampling::kForwardEuler;
@@ -88,7 +88,7 @@ TEST(ControllerDesign, IsCertifiedAsSampledAndHeldForEveryMistake) {
   }
 }
 
-// Friction that brakes the joint within a period: gains that are designed for the right rules fail the wrong ones.
+// Friction brakes this joint within a period. Gains designed only for the correct rules fail with mistaken rules.
 TEST(ControllerDesign, AsksForMistakenRulesWhereTheyFail) {
   DesignRequest request = reference_request();
   request.plant.inertia_kgm2 = 0.001;
@@ -98,7 +98,7 @@ TEST(ControllerDesign, AsksForMistakenRulesWhereTheyFail) {
   EXPECT_TRUE(design_gains(Controller::kC4, request).certificate.certified);
 }
 
-// Each of these was answered with "no solution exists" by a first solve in unfit units.
+// An earlier solve in unsuitable units reported "no solution exists" for each of these problems.
 TEST(ControllerDesign, SolvesWhatHasASolution) {
   const std::vector<std::function<void(DesignRequest&)>> changes{
       [](auto& r) { r.plant.inertia_kgm2 = 50.0; },
@@ -132,7 +132,7 @@ TEST(ControllerDesign, ADecayRateIsKeptBySimulations) {
   EXPECT_LT(trajectory.final_ratio, 1e4 * std::pow(request.decay_rate, samples));
 }
 
-// The same plant in other units of its states: same cost, same feedback.
+// The same plant with other units of its states must give the same cost and the same feedback.
 TEST(ControllerDesign, TheUnitsOfTheStatesDoNotMatter) {
   const DesignRequest request = reference_request();
   ControllerProblem problem;
@@ -173,7 +173,7 @@ TEST(ControllerDesign, CallsImpossibleWhatIsProvedToBe) {
   EXPECT_NE(proved.find("--max-position_rad"), std::string::npos) << proved;
 }
 
-// Any torque brings a joint without a load back, if slowly enough: there is a solution, and the solver misses it.
+// Any torque brings a joint without a load back, if slowly. A solution exists, but the solver does not find it.
 TEST(ControllerDesign, SaysThatTheSolverFailedWhereNothingIsProved) {
   DesignRequest request = reference_request();
   request.max_torque_Nm = 1e-3;

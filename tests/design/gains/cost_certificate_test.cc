@@ -22,7 +22,7 @@ TEST(Certificate, CertifiesTheShippedTable) {
   EXPECT_EQ(primary.inequalities, 6 * 6 + 15 * 6 + 30 * 6);  // pairs, crossed, mistaken
 }
 
-// Designed by forward Euler, for the source's chapter 6.
+// These tables were designed by forward Euler, for chapter 6 of the source.
 TEST(Certificate, WhatATableSaysOfItsSamplingChangesNothing) {
   for (const char* const name : {"c1", "c2", "c3", "c4", "rhs17-6006"}) {
     GainTable table = testing::shipped_table(name);
@@ -45,15 +45,14 @@ TEST(Certificate, RefusesAnUnstableGain) {
 TEST(Certificate, RefusesOneChangedEntryOfPThatBreaksAPair) {
   GainTable table = testing::shipped_table("rhs17-6006");
   StateMatrix P = table.primary.lyapunov(2);
-  P(1, 1) *= 1.2;  // rule 2 is now too expensive to enter
+  P(1, 1) *= 1.2;  // makes a transition to rule 2 too expensive
   table.primary.set(2, table.primary.gain(2), P);
   const CertificateReport report = certify_primary(table);
   EXPECT_FALSE(report.certified);
   EXPECT_EQ(report.worst.to, 2);
 }
 
-// Within a range of inertia the same gains are provably good; outside it they are not, and the receiver's own
-// numbers decide.
+// The same gains are provably good only within a range of inertia. The certificate uses the receiver's own numbers.
 TEST(Certificate, RefusesInertiasAndPeriodsThatTheGainsCannotControl) {
   const GainTable table = testing::shipped_table("rhs17-6006");
   for (const double factor : {0.01, 1.5, 10.0}) {
@@ -106,8 +105,7 @@ TEST(Certificate, NotANumberAnywhereIsRefused) {
   EXPECT_FALSE(certify_primary(table).certified);
 }
 
-// The statement itself: the function V falls by the stage cost for random states and random weights before
-// and after.
+// Tests the certified statement directly: V falls by the stage cost for random states, with random weights before and after the step.
 TEST(Certificate, WhatItCertifiesHoldsForRandomBlends) {
   std::mt19937_64 random(6);
   std::exponential_distribution<double> exponential;
@@ -140,7 +138,7 @@ TEST(Certificate, WhatItCertifiesHoldsForRandomBlends) {
   }
 }
 
-// The joint is one blend of rules, the controller takes it for another, and for a third in the next sample.
+// The joint has one rule, the controller assumes another, and a third one in the next sample.
 TEST(Certificate, AMistakenTemperatureKeepsTheLoopStable) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;

@@ -27,8 +27,8 @@ TEST(EulerPlant, AgreesWithTheHoldToFirstOrderInThePeriod) {
   EXPECT_LT((a.B - b.B).norm(), 1e-9);
 }
 
-// Gains whose loop has both eigenvalues at -0.15 by forward Euler, with the P that proves it. Sampled and held
-// the same gains have one at -1.41.
+// By forward Euler the loop with these gains has both eigenvalues at -0.15, with a P that proves stability. With a zero-order hold the same gains
+// have an eigenvalue at -1.41.
 TEST(EulerPlant, ItsCertificateSaysNothingOfAJointThatIsHeld) {
   const PlantIdentity plant = testing::reference_identity();
   FuzzyFriction friction;

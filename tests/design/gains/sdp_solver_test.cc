@@ -55,7 +55,7 @@ TEST(SdpSolver, SaysThatAProblemIsUnbounded) {
 }
 
 TEST(SdpSolver, ASolverThatDiesIsAResultAndLeavesNoProcess) {
-  // An unknown that occurs nowhere makes SDPA's normal equations singular; no unknowns at all make it give up.
+  // An unknown that occurs nowhere makes SDPA's normal equations singular. A problem without unknowns makes SDPA give up.
   LmiProblem lmi;
   lmi.require_positive(Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2)));
   const SdpResult result = solve_sdp(lmi);

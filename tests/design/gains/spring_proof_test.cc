@@ -34,13 +34,13 @@ TEST(SpringProof, TheBoxIsTheGearsSlopesAndEveryRulesFriction) {
   EXPECT_THROW(spring_box(table.friction, "csf-17-51", {0.089, 0.089}, {0.05, 0.3}), InputError);
 }
 
-// Any temperature taken for any other, every slope, no damping.
+// The proof covers mistaken temperatures and every slope, without damping.
 TEST(SpringProof, ProvesATableOfTheStudyOnItsGear) {
   const GainTable table = table_of_the_study();
   const SpringProof proof = prove_spring_box(gains_of(table), box_of(table, {0.085, 0.093}), kLoop);
   EXPECT_EQ(proof.outcome, SpringOutcome::kCertified) << describe(proof);
   EXPECT_GT(proof.worst.margin, 0.0);
-  // Every one of six gains at every one of eight corners.
+  // The proof checks each of six gains at each of eight corners.
   EXPECT_GE(proof.inequalities, static_cast<int>(proof.cells.size()) * (1 + 8 * 6));
 }
 
@@ -63,7 +63,7 @@ TEST(SpringProof, ASecondPeriodOfDelayIsNamedUnstableWithItsCorner) {
   EXPECT_NE(describe(proof).find("UNSTABLE"), std::string::npos) << describe(proof);
 }
 
-// Of a rigid joint with these gains, in units of J/h^2 and J/h, an exact velocity without delay makes a stable loop, the daemon's own none.
+// These gains, in units of J/h^2 and J/h, stabilise a rigid joint with exact velocity and no delay, but not in the loop of the daemon.
 TEST(SpringProof, NoDeceivingGainsAreProvedOnARigidJoint) {
   GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.356/c1.json");
   EXPECT_TRUE(box_of_rigid(table).certified) << box_of_rigid(table).text;
@@ -84,7 +84,7 @@ TEST(SpringProof, NoDeceivingGainsAreProvedOnARigidJoint) {
   }
 }
 
-// The statement itself: in a cell V falls for any joint of it and any blend of the gains, another at every sample.
+// Tests the statement directly: within a cell V falls for any joint and any blend of the gains, chosen anew at every sample.
 TEST(SpringProof, WhatIsProvedFallsAlongARandomWalkThroughACell) {
   const GainTable table = table_of_the_study();
   const std::vector<GainRow> gains = gains_of(table);

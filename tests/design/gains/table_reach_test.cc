@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLimit_Nm = 34.0;
 
-// Of fixed size, which is ten times as fast.
+// Matrices of fixed size are ten times as fast.
 using LoopMatrix = Eigen::Matrix<double, 7, 7>;
 using LoopState = Eigen::Matrix<double, 7, 1>;
 
@@ -24,13 +24,13 @@ const GainTable& shipped() {
   return table;
 }
 
-/// Made once: it takes ten seconds.
+/// Computed once, because it takes ten seconds.
 const TableReach& shipped_reach() {
   static const TableReach reach = reach_of(shipped());
   return reach;
 }
 
-// One joint under one gain, simulated: the torque acts one period late and is limited.
+// Simulates one joint under one gain. The torque acts one period late and is limited.
 class TableReachTest : public ::testing::Test {
  protected:
   double any(const BoxRange& range) {
@@ -59,7 +59,7 @@ class TableReachTest : public ::testing::Test {
     return x;
   }
 
-  // `at_motor_Nm` is what the law does not know.
+  // `at_motor_Nm` is a torque that the control law does not know.
   void step(LoopState& x, double at_motor_Nm = 0.0) const {
     x = (H_ * x).eval();
     x(6) = std::clamp(x(6), -kLimit_Nm, kLimit_Nm);
@@ -139,7 +139,7 @@ TEST_F(TableReachTest, FromTheRegionVFallsAndTheLoopReturns) {
   }
 }
 
-// What the region is for: far outside of it V rises.
+// Shows why the region is needed: far outside of it V rises.
 TEST_F(TableReachTest, FarOutsideTheRegionALimitedTorqueLetsVRise) {
   bool rises = false;
   for (int joint = 0; joint < 20; ++joint) {

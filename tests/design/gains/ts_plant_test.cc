@@ -10,7 +10,7 @@
 namespace strainwave {
 namespace {
 
-// The continuous joint under constant torque, in many small exact-enough steps (RK4).
+// Integrates the continuous joint under constant torque in many small steps (RK4), accurately enough for these tests.
 StateVector integrate(StateVector state, double torque_Nm, const PlantIdentity& plant, double viscous) {
   const int steps = 1000;
   const double h = plant.period_s / steps;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Takagi-Sugeno plant under blended feedback with weights that change at random every sample, mostly
-// between pure rules: what the designs promise to withstand.
+// Simulates the Takagi-Sugeno plant with blended feedback. The weights change at random at every sample, mostly between pure rules. The designs must
+// withstand all such changes.
 #pragma once
 
 #include <random>
@@ -13,7 +13,7 @@ namespace strainwave {
 struct WorstCase {
   double cost = 0.0;
   double largest_torque_Nm = 0.0;
-  StateVector largest = StateVector::Zero();  ///< of each state
+  StateVector largest = StateVector::Zero();  ///< largest magnitude of each state
   double final_ratio = 0.0;                   ///< |x| at the end over |x| at the start
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Our heartbeat while the background thread waits for a drive: it goes on when the bus is closed, and never covers a loop that hangs.
+// Our heartbeat while the background thread waits for a drive. It continues when the bus is closed, but never hides a hanging loop.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 constexpr std::int64_t kHeartbeatPeriod_ns = 20'000'000;
 constexpr std::int64_t kAnswer_ns = 400'000'000;
 
-/// A port in real time on which no frame arrives.
+/// A real-time port on which no frame arrives.
 class SilentPort final : public CanPort {
  public:
   explicit SilentPort(std::atomic<int>& heartbeats) : heartbeats_(heartbeats) {}
@@ -39,7 +39,7 @@ class SilentPort final : public CanPort {
   std::atomic<int>& heartbeats_;
 };
 
-/// A drive whose answer in the background takes kAnswer_ns.
+/// A drive that delays the background thread by kAnswer_ns.
 class SlowNode final : public CanNode {
  public:
   explicit SlowNode(std::atomic<bool>& waiting) : waiting_(waiting) {}

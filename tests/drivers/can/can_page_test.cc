@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// docs/can.md against the code: every detail of a fault with its number and name.
+// Compares docs/can.md with the code: every fault detail with its number and name.
 #include <gtest/gtest.h>
 
 #include <map>

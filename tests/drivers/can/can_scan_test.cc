@@ -17,7 +17,7 @@ bool any_contains(const std::vector<std::string>& lines, const std::string& part
 class CanScan : public ::testing::Test {
  protected:
   std::vector<ScannedNode> scan() {
-    // Time to switch on.
+    // Gives the drives time to boot.
     bench_.can().run_to(bench_.can().now_ns() + 200'000'000);
     return scan_can_bus(bench_.can().factory(), 20'000'000);
   }

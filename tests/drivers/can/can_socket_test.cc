@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be said of the socket without a kernel that has CAN; the rest is tested in the virtual machine.
+// The checks of the socket that need no kernel with CAN. The rest is tested in the virtual machine.
 #include "drivers/can/can_socket.h"
 
 #include <gtest/gtest.h>

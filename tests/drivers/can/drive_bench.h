@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints with CiA 402 drives on a bus in virtual time: the real bus and node of drivers/can, the independent
-// simulated drives of tests/support/can_nodes, a period per step.
+// Joints with CiA 402 drives on a bus in virtual time. It uses the real bus and node of drivers/can and the independent simulated drives of
+// tests/support/can_nodes. Each step is a period.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@
 
 namespace strainwave::testing {
 
-/// A drive as the node is made, and as the configuration describes it.
+/// A drive: its simulated node and its configuration.
 struct BenchDrive {
   can_nodes::Cia402NodeConfig node;
   cia402::DriveConfig config;
 };
-/// The catalogue's joint on node `node_id`, with a temperature over PDO.
+/// The catalogue's joint on node `node_id`, with its temperature in a PDO.
 BenchDrive bench_drive(std::uint8_t node_id);
 
 class DriveBench {
@@ -28,19 +28,19 @@ class DriveBench {
   static constexpr std::int64_t kPeriod_ns = 1'000'000;
   explicit DriveBench(std::vector<BenchDrive> drives);
 
-  /// Makes the bus, which sets the drives up. Throws InputError.
+  /// Creates the bus, which sets the drives up. Throws InputError.
   void start();
-  /// The message of start(), which must throw.
+  /// Returns the message of start(), which must throw.
   std::string start_refusal();
 
-  /// One period: `command` for the first joint, the others stay disabled unless all_ say otherwise.
+  /// Runs one period with `command` for every joint.
   void step(const ActuatorCommand& command);
   void run(int periods, const ActuatorCommand& command);
-  /// Steps with torque 0 until the first joint is enabled; false when it does not come.
+  /// Steps with torque 0 until all joints are enabled. Returns false if `limit` periods do not suffice.
   bool enable(int limit = 200);
-  /// Periods until the first joint reports a fault, the first counted as 1; 0: none within `limit`.
+  /// Returns the periods until the first joint reports a fault, counted from 1, or 0 if there is none within `limit`.
   int periods_until_fault(int limit, const ActuatorCommand& command);
-  /// As the joint loop does it: stops until the drive obeys, clears, and lets the background thread work.
+  /// Acts as the joint loop does: stops until the drive obeys, clears, and lets the background thread work.
   void clear(int periods = 100);
 
   const ActuatorReading& reading(std::size_t joint = 0) const { return readings_[joint]; }
@@ -52,9 +52,9 @@ class DriveBench {
   cia402::DriveConfig& config(std::size_t joint = 0) { return drives_[joint].config; }
   Actuator& actuator(std::size_t joint = 0) { return *actuators_[joint]; }
   void end() { bus_.reset(); }
-  /// What the bus had to say, a line each.
+  /// Returns the messages of the bus, one a line.
   std::string said();
-  /// Frames with this identifier since `since_ns`.
+  /// Returns the frames with this identifier since `since_ns`.
   std::vector<CanFrame> frames(std::uint32_t id, std::int64_t since_ns) const;
 
  private:
@@ -65,7 +65,7 @@ class DriveBench {
   std::unique_ptr<CanBus> bus_;
   std::vector<std::unique_ptr<Actuator>> actuators_;
   std::vector<ActuatorReading> readings_;
-  bool clear_ordered_ = false;  ///< in the next period, where the joint loop obeys orders
+  bool clear_ordered_ = false;  ///< the next step clears the faults, as the joint loop obeys an order
 };
 
 }  // namespace strainwave::testing

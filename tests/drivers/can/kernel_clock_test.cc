@@ -7,7 +7,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr std::int64_t kEpoch_ns = 1'795'000'000'000'000'000;  // the kernel's time when the loop's is 0
+constexpr std::int64_t kEpoch_ns = 1'795'000'000'000'000'000;  // the kernel's time when the loop's time is 0
 
 TEST(KernelClock, SaysNothingBeforeItHasHeardAnEcho) {
   KernelClock clock(kPeriod_ns);

@@ -17,7 +17,7 @@ constexpr int kSlowEvery = 10;
 class SampleAgeTest : public ::testing::Test {
  protected:
   SampleAgeTest() { age_.restart(kUsual_ns); }
-  /// `periods` SYNCs, each followed by its TPDOs after `delay_ns`; none with `delay_ns` < 0.
+  /// Runs `periods` SYNCs. The TPDOs follow each SYNC after `delay_ns`; a negative delay drops them.
   void run(int periods, std::int64_t delay_ns) {
     for (int i = 0; i < periods; ++i) {
       const std::int64_t sync_ns = next_sync_ns_;
@@ -78,7 +78,7 @@ TEST_F(SampleAgeTest, SeesWholePeriodsThatADriveIsLateFromTheFirstSyncOnUntilItH
     run(1000, kUsual_ns + periods * kPeriod_ns);
     EXPECT_EQ(age_.late_periods(), periods);
     run(5 * kSlowEvery, kUsual_ns);
-    // From TPDO2 a catching up by more than half of its distance cannot be told from lateness; the fault stays the safe side.
+    // TPDO2 cannot tell a catch-up by more than half of its interval from lateness. The fault then stays, which is the safe side.
     EXPECT_EQ(age_.late_periods() == 0, periods < kSlowEvery / 2) << "after " << periods;
   }
 }
@@ -108,7 +108,7 @@ TEST_F(SampleAgeTest, TakesLostSamplesForLostAndNotForLate) {
 TEST_F(SampleAgeTest, OneThatIsElsewhereFromTheFirstSampleOnIsDisplaced) {
   for (const std::int64_t late_ns : {1'400'000, 6'600'000, 10'400'000}) {
     age_.restart(kUsual_ns);
-    // The first SYNCs were before its time, as where the drive was set up anew while the loop went on.
+    // The object has not seen the first SYNCs, as after a new setup of the drive while the loop continues.
     due_.clear();
     for (int i = 0; i < 100; ++i) {
       age_.sync(next_sync_ns_);
@@ -145,7 +145,7 @@ TEST_F(SampleAgeTest, IsLateByThePeriodsInWhichNobodySentASync) {
   EXPECT_EQ(age_.late_periods(0), 0);
 }
 
-// A sample that is on its way for two periods, as usual, is as old when the next two SYNCs are left out.
+// A sample usually arrives two periods late. It does not get older if the loop omits the next two SYNCs.
 TEST_F(SampleAgeTest, IsLaterByPeriodsLeftOutOnlyAsFarAsTheyExceedItsUsualLag) {
   age_.restart(2'400'000);
   run(200, 2'400'000);

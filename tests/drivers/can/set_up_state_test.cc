@@ -7,7 +7,7 @@
 namespace strainwave {
 namespace {
 
-/// Periods that the loop takes until it uses a drive that has been set up.
+/// Returns the periods until the loop uses a drive after its setup.
 int periods_until_ready(SetUpState& setup) {
   for (int period = 1; period < 10; ++period)
     if (setup.look()) return period;

@@ -35,7 +35,7 @@ TEST(Debounce, NeverBelievesAContactThatBouncesFasterThanItsTime) {
   std::int64_t now_ns = 0;
   (void)debounce.step(0, now_ns);
   for (int i = 0; i < 10'000; ++i) {
-    // At most four periods on, then off again.
+    // The contact is on for at most four periods in a row.
     const bool on = i % 5 != 0 && random() % 2 == 0;
     ASSERT_EQ(debounce.step(on ? kHome : 0, now_ns += kPeriod_ns), 0U) << i;
   }

@@ -12,9 +12,9 @@ constexpr DriveSequenceConfig kConfig{0.010, 0.005, 0.030, 0.020, 0.050};
 
 class DriveSequenceTest : public ::testing::Test {
  protected:
-  /// One period; the outputs of it.
+  /// Runs one period and returns its outputs.
   DriveSequence::Outputs step(bool enable) { return outputs_ = sequence_.step(enable, now_ns_ += 1'000'000); }
-  /// Periods until `condition`, at most 1000.
+  /// Returns the periods until `condition` holds, or -1 after 1000.
   template <typename Condition>
   int periods_until(bool enable, const Condition& condition) {
     for (int periods = 1; periods <= 1000; ++periods) {

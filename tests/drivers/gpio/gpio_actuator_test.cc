@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole driver in virtual time: real PWM and counter code on plain files, lines and encoder by stand-ins.
+// The whole driver in virtual time: real PWM and counter code on plain files, with fake lines and a fake encoder.
 #include "drivers/gpio/gpio_actuator.h"
 
 #include <gtest/gtest.h>

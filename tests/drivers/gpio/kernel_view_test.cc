@@ -6,7 +6,7 @@
 namespace strainwave {
 namespace {
 
-// Linux 6.1: numbered over all chips.
+// Linux 6.1 numbers lines over all chips.
 constexpr std::string_view kNumbered =
     "gpiochip1: GPIOs 500-511, parent: platform/gpio-sim.0, joint-board:\n"
     " gpio-500 (enable              |strainwaved elbow   ) out hi \n"
@@ -14,7 +14,7 @@ constexpr std::string_view kNumbered =
     "\n"
     "gpiochip0: GPIOs 512-523, parent: platform/x, other:\n"
     " gpio-512 (                    |sysfs               ) out lo \n";
-// Newer: numbered by chip.
+// Newer kernels number lines per chip.
 constexpr std::string_view kByChip =
     "gpiochip0: 12 GPIOs, parent: platform/gpio-sim.0, joint-board:\n"
     " gpio-0   (enable              |strainwaved elbow   ) out lo \n"

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-/// An encoder, by its definition: A is high in the phases 1 and 2 of four, B in 2 and 3.
+/// An encoder by its definition: in phases 0 to 3, A is high in 1 and 2, B in 2 and 3.
 class Encoder {
  public:
-  /// The edge of one step.
+  /// Makes one step and returns its edge.
   Edge step(int direction, std::int64_t duration_ns = kMillisecond_ns) {
     const bool a = level_a();
     count_ += direction;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PWM and counter on plain files in the place of sysfs.
+// PWM and counter on plain files instead of sysfs.
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ class SysfsParts : public ::testing::Test {
     std::filesystem::create_directories((folder_.path() / file).parent_path());
     std::ofstream(folder_.path() / file) << text;
   }
-  /// The first line: what a number left of a longer one before it does not matter.
+  /// Reads the first line only. A plain file may keep digits of a longer earlier number in its later lines.
   std::string read(const std::string& file) const {
     std::ifstream stream(folder_.path() / file);
     std::string line;
@@ -58,7 +58,7 @@ TEST_F(SysfsParts, PwmStartsIdleAndFollowsTheDuty) {
   }
 }
 
-// Linux 6.1 refuses any change of a channel that has no period yet, and a plain file refuses nothing: what is tested is the order.
+// Linux 6.1 refuses any change of a channel that has no period yet. A plain file refuses nothing, so the test checks the order of the writes.
 TEST_F(SysfsParts, PwmThatIsOffIsWrittenItsPeriodBeforeAnythingElse) {
   make_pwm();
   const UniqueFd watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
@@ -154,7 +154,7 @@ TEST(CountUnwrapper, GoesTheShorterWayRoundInAnyRange) {
     for (int i = 0; i < 1000; ++i) {
       const std::int64_t by = step(random);
       truth += by;
-      // Modulo ceiling + 1 in 128 bits.
+      // Adds modulo ceiling + 1 in 128 bits.
       const Wide modulus = static_cast<Wide>(ceiling) + 1;
       const Wide moved = static_cast<Wide>(shown) + modulus + by;
       shown = static_cast<std::uint64_t>(moved % modulus);

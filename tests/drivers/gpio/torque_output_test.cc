@@ -22,7 +22,7 @@ TorqueOutputConfig voltage() {
   config.motor = MotorLimits::from_motor({34.0, 9.6, 9.549, 4.8, 75.0});
   return config;
 }
-/// Past the wait before a change of direction.
+/// Returns the output after the wait before a change of direction.
 TorqueOutput::Output settled(TorqueOutput& output, double torque_Nm, double velocity_rad_s = 0.0) {
   for (int i = 0; i < 10; ++i) (void)output.step(torque_Nm, velocity_rad_s);
   return output.step(torque_Nm, velocity_rad_s);

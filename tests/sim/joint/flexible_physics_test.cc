@@ -152,7 +152,7 @@ TEST(FlexiblePhysics, NeverGainsEnergyWithoutInput) {
     state.link.velocity_rad_s = -0.5;
     const double begin_J = mechanical_energy_J(joint, state);
     double energy_J = begin_J;
-    // Bristles store a little, which the mechanical energy does not count: 1/2 Fs z.
+    // The bristles store a little energy that mechanical_energy_J() does not count: 1/2 Fs z.
     const double bristles_J = 0.5 * 10.0 * presliding_rad;
     for (int k = 0; k < 500; ++k) {
       advance(state, joint, cold(0.0), 1e-3, 20);

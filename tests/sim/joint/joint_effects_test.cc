@@ -58,7 +58,7 @@ TEST(FlexiblePhysics, HoldsTheMotorByMoreInOneDirectionThanInTheOther) {
       EXPECT_EQ(state.motor.stuck, share < 1.0) << direction;
       EXPECT_EQ(state.motor.position_rad == 0.0, share < 1.0) << direction;
     }
-  // Of the same push the way is another, where it slides and where it creeps before.
+  // The same push moves the motor farther against the smaller friction, with and without presliding.
   for (const double presliding_rad : {0.0, 1e-4}) {
     joint.effects.friction.presliding_rad = presliding_rad;
     const auto way_rad = [&](double direction) {
@@ -90,7 +90,7 @@ TEST(LostMotion, IsTheWidthOfTheLoopAtZeroTorque) {
   Transmission& gear = *joint.effects.transmission;
   gear.spring = TorsionSpring::linear(8100.0);
   gear.lost_motion.width_rad = 5.8e-4;
-  // The motor turns slowly against a link that is held by its own friction.
+  // The motor turns slowly against a link that its own friction holds.
   gear.link_coulomb_Nm = 1e6;
   const auto wind_up_at_zero_torque = [&](double direction) {
     FlexibleState state;

@@ -190,7 +190,7 @@ TEST(JointPhysics, ConvergesWithTheFourthOrderBetweenEvents) {
 }
 
 TEST(JointPhysics, KeepsAtLeastTheThirdOrderThroughAStop) {
-  // The stop falls anywhere within a step, so the error is not smooth in the step: look over a wide ratio.
+  // The stop lies anywhere within a step, so the error is not smooth in the step size. A large ratio of step sizes averages this out.
   const double exact = stopping_distance(20000);
   const double coarse = std::abs(stopping_distance(20) - exact);
   const double fine = std::abs(stopping_distance(320) - exact);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint with a linear spring, and how it is moved: what tests of the flexible joint share.
+// A joint with a linear spring and functions that move it, for the tests of the flexible joint.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// That a part of the controller which is switched off is missing: the table of `strainwave-sim ablation` compares nothing with itself.
+// Each switched-off part of the controller changes the results. Otherwise `strainwave-sim ablation` would compare a controller with itself.
 #include "sim/studies/ablation.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace strainwave {
 namespace {
 
-/// Whether a few joints of the grid behave differently, as they are or configured wrongly.
+/// Whether the two controllers behave differently on a few joints of the grid, configured correctly or wrongly.
 bool differ(const Contender& complete, const Contender& without) {
   for (const auto& cells : {flexible_grid(), wrongly_configured_grid()})
     for (std::size_t i = 3; i < cells.size(); i += 67) {

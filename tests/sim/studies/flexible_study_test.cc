@@ -55,7 +55,7 @@ TEST(FlexibleStudy, FindsNoRandomJointThatOscillatesOrDiverges) {
     EXPECT_FALSE(oscillates(cell, contender("daemon"))) << cell.link_inertia_kgm2;
 }
 
-// That the study sees an oscillation where there is one: the plain law with gains for half of the link, at twice the delay.
+// The study must see an oscillation where there is one: the plain law with gains for a much lighter link, and two more periods of delay.
 TEST(FlexibleStudy, FindsThePlainLawOscillatingOnHeavyLinksThatItDoesNotKnow) {
   const Contender plain = plain_contender("C4", FlexibleTables::nearest(tables().c4, 0.119));
   int found = 0;
@@ -72,7 +72,7 @@ double percentile_of(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-// Issue: what the product promises on the grid, links of up to three times the motor's inertia.
+// The product's goals on the grid. Those for errors and overshoot are for links up to three times the motor's inertia.
 TEST(FlexibleStudy, ReachesItsGoalsOnTheGrid) {
   struct Of {
     std::vector<double> over_limit, overshoot_mrad;
@@ -114,7 +114,7 @@ TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
   for (const FlexibleRow& row : rows)
     for (const FlexibleResult& result : row.results) {
       EXPECT_GE(result.link_ratio, 0.99);
-      // The motion with the least sum of all is not the one with the least above 40 urad, and its motor turns one way only.
+      // The limit minimises the sum of all errors, not of those above 40 urad, and its motor turns one way only.
       EXPECT_GE(result.link_counted_ratio, 0.6);
       if (result.oscillates) {
         EXPECT_LT(result.settling_time_s, 0.0) << "what swings has not settled";

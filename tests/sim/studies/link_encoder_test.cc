@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller on the reading of an encoder behind the gear's spring, with the table that is certified for it.
+// The controller with an encoder on the link, behind the gear's spring, and with the table that is certified for it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,12 +34,12 @@ Contender controller(const GainTable& table) {
 }
 
 struct LinkArrival {
-  double error_rad = 0.0;  ///< of the link, at the end
-  double swing_rad = 0.0;  ///< from peak to peak over the last second
+  double error_rad = 0.0;  ///< error of the link at the end
+  double swing_rad = 0.0;  ///< peak to peak, in the last second
   double overshoot_rad = 0.0;
-  int reversals = 0;  ///< of a torque of 1 N m and more, over the last second
+  int reversals = 0;  ///< sign changes of a torque of 1 N m and more in the last second
   bool switched_off = false;
-  double within_mrad_s = 0.0;  ///< from when on the link stays within a milliradian
+  double within_mrad_s = 0.0;  ///< time after which the link stays within a milliradian
 };
 
 LinkArrival run(const FlexibleCell& cell, const GainTable& table) {
@@ -65,7 +65,7 @@ LinkArrival run(const FlexibleCell& cell, const GainTable& table) {
   return arrival;
 }
 
-// Outside the box as well: a link of 0.05 and one of 0.3 kg m2.
+// The links of 0.05 and 0.3 kg m2 are outside the table's box.
 TEST(LinkEncoder, ArrivesWithoutOscillatingWhateverTheLink) {
   const GainTable table = testing::shipped_table("csf-17-50-link");
   for (int delay = table.box.least_delay; delay <= table.box.most_delay; ++delay) {

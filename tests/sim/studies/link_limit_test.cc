@@ -27,7 +27,7 @@ double pi2(double temperature_C, double link_inertia_kgm2, double step_rad, doub
       .pi2;
 }
 
-// Computed elsewhere by a programme written independently.
+// The expected values come from an independently written program.
 TEST(LinkLimit, IsTheOneFoundIndependently) {
   const struct {
     double temperature_C, link_kgm2, pi2[4];
@@ -52,10 +52,10 @@ TEST(LinkLimit, DoesNotDependOnTheDirection) {
   EXPECT_NEAR(pi2(-5, 0.1, -0.01), pi2(-5, 0.1, 0.01), 1e-6);
 }
 
-// The torque that the programme finds, in the plant itself, brings the link there: the programme's plant is the plant.
+// The linear programme's torque brings the link of the simulated plant to its target: its model agrees with the plant.
 TEST(LinkLimit, IsReachedByItsOwnTorqueInThePlant) {
   JointPlantConfig config = plant(0.1, 0.0);
-  config.joint.stribeck.velocity_rad_s = 1e-6;  // the programme knows Coulomb friction only
+  config.joint.stribeck.velocity_rad_s = 1e-6;  // the programme models Coulomb friction only
   config.joint.friction.asymptote.static_Nm = config.joint.friction.asymptote.coulomb_Nm;
   config.joint.friction.amplitude.static_Nm = config.joint.friction.amplitude.coulomb_Nm;
   config.substeps = 50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the daemon knows makes a drive that closes its own loop better, each part of it, cold and warm, at every rate of the drive.
+// Each part of the daemon's knowledge improves a drive that closes its own loop: cold and warm, at every rate of the drive.
 #include "sim/studies/own_loop_study.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 TEST(OwnLoopStudy, EachPartOfTheOrderMakesTheDriveBetter) {
   std::map<std::tuple<std::string, double, double>, double> rms_rad;
-  // Of a drive with all offsets, faster than the bus or tuned with a margin: torque mode's error, cold and warm.
+  // Largest ratio to the error of torque mode, for a drive with all offsets that is faster than the bus or tuned with a margin.
   constexpr double kGoal = 1.3;
   for (const OwnLoopRow& row : run_own_loops(read_flexible_tables(STRAINWAVE_SOURCE_DIR "/data/tables"))) {
     rms_rad[{row.way, row.rate_Hz, row.temperature_C}] = row.rms_rad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controllers of the flexible study on the joint of tests/support/two_mass_joint.h, which shares nothing with the simulator: the study's
-// figures are of the joint, not of how it is integrated.
+// The controllers of the flexible study on the joint of tests/support/two_mass_joint.h, which shares nothing with the simulator. So the
+// study's figures do not depend on the numerical integration.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,7 +126,7 @@ TEST(SecondPlant, NoJointDrawnAtRandomOscillatesOnIt) {
   const std::vector<FlexibleCell> grid = flexible_grid();
   for (int i = 0; i < 60; ++i) {
     FlexibleCell cell = grid[random() % grid.size()];
-    // What is configured is not quite the joint.
+    // The joint differs from its configuration.
     Transmission& gear = *cell.plant.effects.transmission;
     gear.link_inertia_kgm2 *= between(0.7, 1.3);
     gear.spring = gear.spring.scaled(between(0.75, 1.25));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chapter 6, robustness and heat with the project's own tables: properties that hold whatever the gains are.
+// The studies of chapter 6, robustness and heat with the project's own tables: properties that hold for all gains.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -213,7 +213,7 @@ TEST(Figure, IsAsLargeAsItsPanelsAndKeepsTinyRanges) {
                  folder.path());
     return read_text_file(folder.path() / (id + ".svg"));
   };
-  // A width of its own, so that one panel is not stretched to the width of three.
+  // Each figure has its own width, so that one panel is not stretched to the width of three.
   EXPECT_NE(drawn(1, "one").find("width=\"460\""), std::string::npos);
   const std::string three = drawn(3, "three");
   EXPECT_NE(three.find("width=\"1380\""), std::string::npos);

@@ -30,7 +30,7 @@ const std::vector<TemperatureRow>& rows() {
   return all;
 }
 
-/// Per cent below uncompensated, the mean of the motions, one number for each of kStudyTemperatures_C.
+/// `percents`: least reduction of the error against no compensation, a mean over the motions, for each of kStudyTemperatures_C.
 void expect_at_least(const std::string& sensor, const std::vector<double>& percents) {
   for (std::size_t i = 0; i < kStudyTemperatures_C.size(); ++i)
     EXPECT_GE(100.0 * (1.0 - rms_over_none(rows(), ways().back().name, kStudyTemperatures_C[i], sensor)),
@@ -92,8 +92,8 @@ TEST(TemperatureStudy, NoWayIsSwitchedOff) {
     EXPECT_FALSE(row.switched_off) << row.way << ", " << row.sensor << ", " << row.motion;
 }
 
-// On a joint without friction nothing is left of the path but what reading and delay leave: all ways follow the same path, and the
-// stream is sent as much earlier as it is late.
+// Without friction only the errors of reading and delay remain. All ways follow the same path, and the stream is sent earlier by its
+// delay.
 TEST(TemperatureStudy, FollowsThePathWithoutALagWhereThereIsNoFriction) {
   JointPlantConfig plant = temperature_plant();
   plant.joint.friction.asymptote = plant.joint.friction.amplitude = {0.0, 0.0, 0.0};

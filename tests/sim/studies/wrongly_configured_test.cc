@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints that are configured wrongly, of the whole grid and of a thousand joints drawn at random.
+// Wrongly configured joints: from the grid, and at random.
 #include "sim/studies/wrongly_configured.h"
 
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ const FlexibleTables& shipped_tables() {
   return read;
 }
 
-// Load, stiffness, friction or jitter, each alone: the link rests within 0.5 mrad. Links below those of the table's box are
-// left out, since the daemon refuses them; a delay of one period more than configured is for tables that are designed for it. The whole grid
-// is `strainwave-sim flexible --wrong`.
+// With only the load, stiffness, friction or jitter wrong, the link rests within 0.5 mrad. Left out are links below the table's box, which
+// the daemon refuses, and one period of delay more than configured, which needs a table designed for it. `strainwave-sim flexible --wrong`
+// runs the whole grid.
 TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
   std::vector<FlexibleCell> cells;
   const std::vector<FlexibleCell> grid = wrongly_configured_grid();
@@ -47,11 +47,11 @@ TEST(WronglyConfigured, EveryFifthJointOfTheGridRestsNearItsTarget) {
     const bool alone = !effect.starts_with("model") && !effect.starts_with("every");
     EXPECT_LE(worst, alone ? 0.5e-3 : 1.5e-3) << effect;
   }
-  // The goal is 30 of 432 joints for each of both loads. Before a motion's mean stayed, 45 of 432 stood off in the mean.
+  // The goal for each of the two wrong loads is 30 of 432 joints. Before friction learning kept the mean of a motion, it was 45 on average.
   EXPECT_LE(432 * stand_off, 30 * wrong_loads);
 }
 
-// Gains that are certified for one period of delay more than configured keep every joint of their box in motion.
+// Gains that are certified for one more period of delay than configured switch off no joint of their box.
 TEST(WronglyConfigured, NoJointIsSwitchedOffForOnePeriodOfDelayMoreWithGainsForIt) {
   const auto rows =
       run_wrongly_configured(late_grid(), extended_contender("daemon", shipped_tables().shipped_for_delays));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A raw CAN socket for the simulated nodes' programs: non-blocking, with a controller's acceptance filters. An interface that
-// is down loses frames, as a cable does, and carries them again when it is up.
+// A non-blocking raw CAN socket for the simulated nodes' programs, with a controller's acceptance filters.
+// While the interface is down, frames are lost, as with a cut cable.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace strainwave::can_nodes {
 
-/// Lets frames through whose identifier is `id` in the bits of `mask`.
+/// Accepts frames whose identifier equals `id` in the bits of `mask`.
 struct AcceptanceFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0x7FF;
@@ -20,13 +20,13 @@ struct AcceptanceFilter {
 
 class CanPort {
  public:
-  /// Throws std::system_error when `interface` is not there or the kernel has no CAN.
+  /// Throws std::system_error if `interface` does not exist or the kernel has no CAN.
   CanPort(const std::string& interface, const std::vector<AcceptanceFilter>& filters);
 
   int descriptor() const { return descriptor_.get(); }
-  /// The next frame with an 11-bit identifier, if one waits.
+  /// The next frame with an 11-bit identifier, if one is waiting.
   std::optional<Frame> receive();
-  /// False when the bus did not take it.
+  /// Returns false if the bus did not accept the frame.
   bool send(const Frame& frame);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulated drive can be told to do wrong, one line each; numbers in C's notation (0x.. is hexadecimal):
+// Commands that make a simulated drive misbehave, one per line; numbers in C's notation (0x.. is hexadecimal):
 //
-//   cut | reconnect               the cable: no frame in or out; the drive lives on
+//   cut | reconnect               the cable: no frame in or out; the drive keeps running
 //   reboot [MS]                   power off and on; silent for MS (default: its boot time)
 //   emcy CODE                     a fault of the drive with this error code, and its reaction
 //   pretend INDEX SUB VALUE       show this value to every reader (6061h: wrong mode; 1018h: wrong identity; 6076h: unit)
@@ -10,10 +10,10 @@
 //   late-tpdo US COUNT            TPDOs late by US at the next COUNT SYNCs
 //   late-tpdo-at-rate US          the same, but never at a SYNC that comes 10 ms after the last one or later
 //   heartbeat on|off              the producer
-//   ignore-nmt on|off             obey no order of network management
+//   ignore-nmt on|off             ignore network management
 //   refuse INDEX SUB ABORT        answer SDOs to this object with the abort code; 0: no longer
 //   load TORQUE_NM                an external torque on the joint
-//   note-torque on|off            record where torque begins and ends
+//   note-torque on|off            record the beginning and the end of torque
 //   clear | report                the counts
 #include "tests/support/can_nodes/cia402_node.h"
 #include "tests/support/can_nodes/text.h"

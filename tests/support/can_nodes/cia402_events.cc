@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of cia402_node.h that tells: emergencies, and the record of what happened.
+// The events of cia402_node.h: emergencies, and the record of what happened.
 #include <cmath>
 
 #include "tests/support/can_nodes/cia402_node.h"
@@ -9,7 +9,7 @@ namespace strainwave::can_nodes {
 
 namespace {
 
-// Which bits of the error register a code sets: CiA 301, table 26 and object 1001h.
+// The bits of the error register that a code sets: CiA 301, table 26 and object 1001h.
 std::int64_t error_register_of(std::uint16_t code) {
   switch (code >> 12) {
     case 0:
@@ -47,7 +47,7 @@ void Cia402Node::on_heartbeat_lost(std::uint8_t node_id) {
   output_.note(format("heartbeat-lost node=%u", node_id));
   send_emergency(kErrorHeartbeat);
   drive_.lose_connection();
-  // 1029h:1, communication error: 0 leaves operation, 1 stays, 2 stops.
+  // 1029h:1, behaviour at a communication error: 0 leaves the operational state, 1 keeps the state, 2 stops.
   const std::int64_t behaviour = dictionary_.number({0x1029, 1});
   if (behaviour == 0 && nmt_ == NmtState::kOperational) change_nmt(NmtState::kPreOperational);
   if (behaviour == 2) change_nmt(NmtState::kStopped);
@@ -84,7 +84,7 @@ void Cia402Node::note_power(PowerState from, PowerState to) {
                       joint.position_rad, joint.velocity_rad_s));
 }
 
-// Only where torque begins and ends: one line per change, not per period.
+// Records only the beginning and the end of torque, with one line per change.
 void Cia402Node::note_torque() {
   const bool has_torque = drive_.torque_demand_Nm() != 0.0;
   if (has_torque != had_torque_) output_.note(has_torque ? "torque on" : "torque zero");

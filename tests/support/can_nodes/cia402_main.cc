@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwave-can-sim INTERFACE: a simulated CiA 402 servo drive with a joint behind it, on a CAN interface. The tests in the virtual
-// machine drive it, and it is shipped, so that users rehearse a joint's configuration without a drive.
+// strainwave-can-sim INTERFACE: a simulated CiA 402 servo drive with a joint, on a CAN interface. The tests in the
+// virtual machine use it. It is shipped, so that users can rehearse a joint's configuration without a drive.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <map>
@@ -103,7 +103,7 @@ void finish(const Options& options, Cia402NodeConfig& config) {
 ExitStatus run(const Options& options, Cia402NodeConfig& config) {
   finish(options, config);
   try {
-    // Network management, SYNC, heartbeats, and of the predefined connection set what has this node's number.
+    // Network management, SYNC, heartbeats, and this node's part of the predefined connection set.
     CanPort port(options.interface, {{0x000}, {0x080}, {0x700, 0x780}, {config.node_id, 0x07F}});
     BusAndRecord output(port);
     Cia402Node node(config, output);
@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
        .see_also = {"strainwaved(8)", "strainwavectl(1)"}});
   can_nodes::Options options;
   can_nodes::Cia402NodeConfig config;
-  // The bus brings the period of delay that the plant has elsewhere: what is read was sampled with the last SYNC.
+  // The bus already has the plant's period of delay: a reading was sampled at the last SYNC.
   config.drive.plant = realistic_plant();
   config.drive.plant.delay.periods = 0.0;
   can_nodes::add_options(program, options, config);

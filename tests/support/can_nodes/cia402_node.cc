@@ -54,7 +54,7 @@ void Cia402Node::add_objects() {
   record(0x1018, {config_.vendor, config_.product, config_.revision, config_.serial});
   dictionary_.add({0x1029, 0}, {kUnsigned8, Access::kConstant, 1});
   dictionary_.add({0x1029, 1}, {kUnsigned8, Access::kReadWrite, 0, Mappable::kNo, 0, 2, {}});
-  // The drive's own period is what it is: cycles must be whole multiples of it.
+  // The drive's own period is fixed. Cycles must be whole multiples of it.
   dictionary_.guard(0x1006, 0x1006, [this](Key, std::int64_t value) {
     return value % drive_.period_us() == 0 ? Abort::kNone : Abort::kInvalidValue;
   });
@@ -91,7 +91,7 @@ void Cia402Node::reset(Reset what) {
   boot_done_us_ = now_us_ + config_.boot_us;
 }
 
-// The master ends the operation by NMT: a drive that is powered takes it for a lost connection.
+// The master ends the operation by NMT. A drive that is powered treats this as a lost connection.
 void Cia402Node::leave_operation() {
   if (drive_.power() == PowerState::kOperationEnabled) drive_.lose_connection();
 }
@@ -183,7 +183,7 @@ std::int64_t Cia402Node::sync_period_us() const {
   return std::max(communication_us > 0 ? communication_us : interpolation_us, drive_.period_us());
 }
 
-// The values that the TPDOs carry are those of the SYNC's instant; what the RPDOs brought acts from there on.
+// The TPDOs carry the values at the instant of the SYNC. The values of the RPDOs act from then on.
 void Cia402Node::on_sync() {
   ++syncs_;
   if (late_at_rate_us_ > 0) {

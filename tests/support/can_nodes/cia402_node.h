@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A simulated CANopen servo drive: network management, SYNC, heartbeats, EMCY, SDO and PDO around
-// servo_drive.h. It is written from the standards alone and shares nothing with drivers/, so the two can
-// contradict each other. Time is an argument and frames go to a NodeOutput: no sockets, no clocks. It
-// misbehaves on request (command()). Source: CiA 301 (4.2.0), CiA 402-2, CiA 402-3.
+// servo_drive.h. It is written from the standards alone and shares no code with drivers/, so that errors in
+// either one show. Time is an argument and frames go to a NodeOutput: it uses no sockets and no clocks.
+// Commands make it misbehave (command()). Source: CiA 301 (4.2.0), CiA 402-2, CiA 402-3.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ struct Cia402NodeConfig {
   std::int64_t boot_us = 50000;  ///< from power-on or reset to the boot-up message
   std::int64_t start_us = 0;     ///< from NMT start to operational
   std::int64_t sdo_answer_us = 0;
-  std::int64_t late_at_rate_us = 0;    ///< as the command late-tpdo-at-rate
+  std::int64_t late_at_rate_us = 0;    ///< like the command late-tpdo-at-rate
   std::vector<std::uint16_t> lacks{};  ///< indices that this drive does not have
-  std::vector<Key> read_only{};        ///< entries that others let write
+  std::vector<Key> read_only{};        ///< entries that are writable in other drives
   ServoDriveConfig drive;
 };
 
 enum class NmtState : std::uint8_t { kBooting = 0, kStopped = 4, kOperational = 5, kPreOperational = 127 };
-/// As the record has it.
+/// The state's name in the record.
 const char* to_text(NmtState state);
 
 class Cia402Node final : public Node {
@@ -48,11 +48,11 @@ class Cia402Node final : public Node {
 
   void power_on(std::int64_t now_us) override;
   void receive(const Frame& frame, std::int64_t now_us) override;
-  /// Everything that is due by `now_us`; call it at next_deadline_us().
+  /// Does everything that is due by `now_us`. Call it at next_deadline_us().
   void advance(std::int64_t now_us) override;
   std::int64_t next_deadline_us() const override;
 
-  /// One line of what to do wrong; cia402_commands.cc lists them. Returns what was wrong with the line, or nothing.
+  /// Obeys one line that makes the node misbehave; cia402_commands.cc lists them. Returns the error in the line, or nothing.
   std::string command(std::string_view line, std::int64_t now_us) override;
 
   NmtState nmt() const { return nmt_; }
@@ -97,19 +97,19 @@ class Cia402Node final : public Node {
   std::int64_t boot_done_us_ = 0;
   std::optional<std::int64_t> start_done_us_;
   std::int64_t next_heartbeat_us_ = 0;
-  std::int64_t next_step_us_ = 0;  ///< of the drive's own clock, when no SYNC comes
+  std::int64_t next_step_us_ = 0;  ///< of the drive's own clock, without a SYNC
   std::optional<std::int64_t> last_sync_us_;
   long syncs_ = 0;
   std::int64_t longest_sync_gap_us_ = 0;
 
-  // What it does wrong.
+  // Misbehaviour that commands request.
   bool cable_cut_ = false;
   bool heartbeat_off_ = false;
   bool ignores_nmt_ = false;
   long skipped_syncs_ = 0;
   long late_syncs_ = 0;
   std::int64_t late_us_ = 0;
-  std::int64_t late_at_rate_us_ = config_.late_at_rate_us;  ///< unless the SYNC before is 10 ms ago
+  std::int64_t late_at_rate_us_ = config_.late_at_rate_us;  ///< unless the last SYNC was 10 ms ago or more
   struct Late {
     std::int64_t due_us;
     Frame frame;

@@ -46,7 +46,7 @@ class Cia402NodeTest : public ::testing::Test {
   }
   void boot() { bench_.wait_us(60000); }
   void nmt(std::uint8_t order) { bench_.exchange({0x000, {order, 3}}); }
-  /// RPDO with controlword and torque, SYNC, one period; returns what came with the SYNC.
+  /// Sends an RPDO with controlword and torque, then SYNC, and waits a period. Returns the answers to the SYNC.
   std::vector<Frame> cycle(std::uint16_t controlword, std::int16_t torque_permille, bool heartbeat = true) {
     std::vector<std::uint8_t> bytes;
     append_little_endian(bytes, controlword, 2);
@@ -96,7 +96,7 @@ TEST_F(Cia402NodeTest, BootsUpOnceAndAnswersOnlyThen) {
 TEST_F(Cia402NodeTest, GoesThroughTheProfilesStatesAndDelaysEnabling) {
   configure(1);
   EXPECT_EQ(read(0x6041) & 0x6F, 0x40);
-  cycle(0x07, 0);  // not from here
+  cycle(0x07, 0);  // not possible in this state
   EXPECT_EQ(read(0x6041) & 0x4F, 0x40);
   cycle(0x06, 0);
   EXPECT_EQ(read(0x6041) & 0x6F, 0x21);

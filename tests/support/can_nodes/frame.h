@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A CAN frame as the simulated nodes see it. Classic CAN, 11-bit identifiers. No sockets: can_port.h translates.
+// A classic CAN frame with an 11-bit identifier for the simulated nodes. can_port.h converts it for sockets.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-/// Little-endian, as both protocols have it. `size` is 1 to 8.
+/// Appends a number in little-endian order, as in both protocols. `size` is 1 to 8.
 template <typename Container>
 void append_little_endian(Container& bytes, std::uint64_t value, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
@@ -40,7 +40,7 @@ inline std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
   return value;
 }
 
-/// A float of four bytes.
+/// A four-byte float.
 inline float float_at(const Frame& frame, std::size_t offset) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(offset, 4))));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches the heartbeats that 1016h tells a node to watch. A node is watched from its first heartbeat on; a
-// lost one is told once, until it is heard again. Source: CiA 301 (4.2.0), 7.5.2.19.
+// Watches the heartbeats that object 1016h lists. It watches a node from its first heartbeat on. A lost
+// heartbeat is reported once, until the next one arrives. Source: CiA 301 (4.2.0), 7.5.2.19.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ inline constexpr int kWatchedNodes = 2;
 
 class HeartbeatConsumer {
  public:
-  /// Adds 1016h.
+  /// Adds object 1016h to the dictionary.
   explicit HeartbeatConsumer(ObjectDictionary& dictionary);
 
   void heard(std::uint8_t node_id, std::int64_t now_us);
-  /// 1016h was written: watches anew.
+  /// Starts again after object 1016h was written.
   void restart() { deadline_us_ = {}; }
   /// The next node whose heartbeat is overdue at `now_us`.
   std::optional<std::uint8_t> lost(std::int64_t now_us);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cascade of a simulated servo drive: a proportional position loop around a proportional-integral velocity loop, in the drive's units.
-// The setpoint of a SYNC is reached at the next one, on a straight line. Without another SYNC the drive stands there.
+// The cascade of a simulated servo drive, in the drive's units: a proportional position loop around a proportional-integral velocity
+// loop. The setpoint of a SYNC is reached at the next one, on a straight line. Without another SYNC the drive stays there.
 #pragma once
 
 #include <cmath>
@@ -11,19 +11,19 @@ namespace strainwave::can_nodes {
 struct MotionLoopConfig {
   double period_s = 1e-3;
   double velocity_bandwidth_rad_s = 200.0;
-  double permille_per_count_s2 = 0.0;  ///< inertia, in the drive's units
+  double permille_per_count_s2 = 0.0;  ///< the inertia, in the drive's units
 };
 
 class MotionLoop {
  public:
   struct Setpoint {
-    std::optional<double> position_counts;  ///< none: velocity alone
+    std::optional<double> position_counts;  ///< none: velocity only
     double velocity_counts_s = 0.0;
   };
 
   explicit MotionLoop(const MotionLoopConfig& config) : config_(config) {}
 
-  /// Power came or went.
+  /// Power was switched on or off.
   void begin(double counts) {
     before_ = counts;
     integral_ = 0.0;
@@ -32,14 +32,14 @@ class MotionLoop {
   }
   void take(const Setpoint& setpoint, double until_next_s) {
     if (setpoint.position_counts) {
-      // Where the last line ended this one begins.
+      // This line begins at the end of the last one.
       place_ = aim_.value_or(*setpoint.position_counts);
       slope_ = (*setpoint.position_counts - *place_) / until_next_s;
     }
     aim_ = setpoint.position_counts;
     setpoint_ = setpoint;
   }
-  /// One period: torque in per mille.
+  /// One period. Returns the torque in per mille.
   double step(double counts) {
     const double velocity = (counts - before_) / config_.period_s;
     before_ = counts;
@@ -57,9 +57,9 @@ class MotionLoop {
     integral_ += last_;
     return proportional + integral_;
   }
-  /// The torque of this step was: nothing winds up.
+  /// The torque of this step was limited: takes back its share of the integral (anti-windup).
   void was_limited() { integral_ -= last_; }
-  /// Of the position, without sign; 0 where it closes no loop of position.
+  /// Magnitude of the position error; 0 without a position loop.
   double error_counts() const { return error_; }
 
  private:

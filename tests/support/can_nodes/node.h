@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulated node is to the program that runs it, and to the tests: frames and time in, frames and a
-// record out.
+// Interface of a simulated node to its program and to the tests: frames and time in, frames and a record out.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace strainwave::can_nodes {
 
-/// What a node does to the outside: frames onto the bus, lines into its record.
+/// A node's outputs: frames on the bus, lines in its record.
 class NodeOutput {
  public:
   virtual ~NodeOutput() = default;
@@ -19,7 +18,7 @@ class NodeOutput {
   virtual void note(const std::string& line) = 0;
 };
 
-/// What a node has to do with time and frames; times are of CLOCK_MONOTONIC.
+/// A node's inputs: time and frames. Times are of CLOCK_MONOTONIC.
 class Node {
  public:
   virtual ~Node() = default;

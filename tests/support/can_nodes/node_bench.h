@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated node on a bus of its own, in virtual time: what it sends and records is kept, and time passes
-// event by event, as the node's program lets it.
+// A simulated node on its own bus in virtual time. The bench keeps what the node sends and records, and time
+// passes event by event, as in the node's program.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class NodeBench {
  public:
   explicit NodeBench(const Config& config) : node(config, output) { node.power_on(0); }
 
-  /// Lets time pass, waking the node when it wants to be woken.
+  /// Lets time pass, and calls the node at each of its deadlines.
   void wait_us(std::int64_t duration_us) {
     const std::int64_t end_us = now_us + duration_us;
     while (node.next_deadline_us() <= end_us) {
@@ -35,14 +35,14 @@ class NodeBench {
     }
     now_us = end_us;
   }
-  /// Sends one frame and returns what the node sent in answer.
+  /// Sends one frame and returns the node's answers.
   std::vector<Frame> exchange(const Frame& frame) {
     output.frames.clear();
     node.receive(frame, now_us);
     return std::exchange(output.frames, {});
   }
   std::string command(std::string_view line) { return node.command(line, now_us); }
-  /// Whether a recorded line begins like this.
+  /// Whether a recorded line begins with `beginning`.
   bool recorded(std::string_view beginning) const {
     return std::any_of(output.lines.begin(), output.lines.end(),
                        [&](const std::string& line) { return line.starts_with(beginning); });

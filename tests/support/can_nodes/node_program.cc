@@ -51,7 +51,7 @@ int open_signals() {
   return ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-// Splits what arrives into lines; false at the end of the input or after "quit".
+// Splits input into lines. Returns false at the end of the input.
 class CommandReader {
  public:
   CommandReader(Node& node, BusAndRecord& record) : node_(node), record_(record) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the programs of the simulated nodes share: a node on a CAN interface, commands from standard input and
-// from a Unix datagram socket, and a record on standard output, one line per event:
+// The common part of the simulated nodes' programs: a node on a CAN interface. Commands come from standard
+// input and a Unix datagram socket. The record goes to standard output, one line per event:
 //   <microseconds of CLOCK_REALTIME, as utime in the messages> <event>
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace strainwave::can_nodes {
 
-/// Frames onto the bus, lines onto standard output.
+/// Sends frames to the bus and writes lines to standard output.
 class BusAndRecord final : public NodeOutput {
  public:
   explicit BusAndRecord(CanPort& port) : port_(port) {}
@@ -23,8 +23,8 @@ class BusAndRecord final : public NodeOutput {
   bool told_of_loss_ = false;
 };
 
-/// Runs until SIGTERM, SIGINT, or the command "quit". `control_path`: of the Unix socket; empty: none.
-/// Returns the exit status. Throws std::system_error when the socket cannot be made.
+/// Runs until SIGTERM, SIGINT, or the command "quit". `control_path` is that of the Unix socket; empty: none.
+/// Returns the exit status. Throws std::system_error if the socket cannot be made.
 int run_node(Node& node, CanPort& port, BusAndRecord& record, const std::string& control_path);
 
 }  // namespace strainwave::can_nodes

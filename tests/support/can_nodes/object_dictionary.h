@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The object dictionary of a simulated CANopen node: typed objects with access rights and ranges, and the
-// abort codes that a refused access has. Source: CiA 301 (4.2.0), 7.4 and table 22.
+// abort codes of refused accesses. Source: CiA 301 (4.2.0), 7.4 and table 22.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace strainwave::can_nodes {
 
-/// The data types' own numbers, which PDO mapping and EDS files use too.
+/// The numbers of the data types, which PDO mapping and EDS files also use.
 enum class DataType : std::uint16_t {
   kInteger8 = 0x02,
   kInteger16 = 0x03,
@@ -60,39 +60,39 @@ struct Key {
 struct Object {
   DataType type = DataType::kUnsigned32;
   Access access = Access::kReadWrite;
-  std::int64_t value = 0;  ///< numbers; a REAL32's bits
+  std::int64_t value = 0;  ///< numbers; bits of a REAL32
   Mappable mappable = Mappable::kNo;
-  std::int64_t low = std::numeric_limits<std::int64_t>::min();  ///< of what may be written
+  std::int64_t low = std::numeric_limits<std::int64_t>::min();  ///< lowest value that may be written
   std::int64_t high = std::numeric_limits<std::int64_t>::max();
   std::string text{};  ///< of a VISIBLE_STRING
 };
 
-/// Bytes of a number of this type; 0 for a string.
+/// Size in bytes of a number of this type; 0 for a string.
 std::size_t size_of(DataType type);
 
 class ObjectDictionary {
  public:
-  /// Says whether `value` may be written now, before it is.
+  /// Decides before a write whether `value` may be written now.
   using Guard = std::function<Abort(Key, std::int64_t value)>;
-  /// Told after `key` was written from outside.
+  /// Called after `key` was written from the bus.
   using Listener = std::function<void(Key)>;
 
   void add(Key key, Object object);
-  /// The device has no such object; guards of it stay without effect.
+  /// Removes an object that the device does not have. Guards of it have no effect.
   void remove(std::uint16_t index) {
     std::erase_if(objects_, [index](const auto& object) { return object.first.index == index; });
   }
-  /// From the bus it may only be read.
+  /// Makes the object read-only from the bus.
   void make_read_only(Key key) { objects_.at(key).access = Access::kReadOnly; }
   void guard(std::uint16_t first, std::uint16_t last, Guard guard);
   void listen(Listener listener) { listener_ = std::move(listener); }
 
-  /// From the bus, with all its checks.
+  /// Access from the bus, with all checks.
   Abort read(Key key, std::vector<std::uint8_t>& bytes) const;
   Abort write(Key key, std::span<const std::uint8_t> bytes);
 
   const Object* find(Key key) const;
-  /// From the device itself: 0 where it has no such object, and nothing to set.
+  /// Access from the device itself. Without the object, it reads 0 and sets nothing.
   std::int64_t number(Key key) const {
     const Object* object = find(key);
     return object == nullptr ? 0 : object->value;
@@ -101,13 +101,13 @@ class ObjectDictionary {
     if (const auto found = objects_.find(key); found != objects_.end()) found->second.value = value;
   }
 
-  /// Pretends from now on, to every reader on the bus, that the object had this value.
+  /// From now on, every reader on the bus gets this value of the object.
   void pretend(Key key, std::int64_t value) { pretended_[key] = value; }
   void pretend_nothing() { pretended_.clear(); }
   /// The value that a reader on the bus gets.
   std::int64_t shown(Key key) const;
 
-  /// Back to what was added, for the indices from `first` to `last`.
+  /// Restores the added values, for the indices from `first` to `last`.
   void restore(std::uint16_t first, std::uint16_t last);
 
  private:

@@ -120,8 +120,8 @@ TEST_F(Pdos, AreSentWithEveryNthSync) {
 }
 
 TEST_F(Pdos, RefuseEveryWrongOrderOfConfiguration) {
-  EXPECT_EQ(write({0x1A00, 0}, 0, 1), Abort::kUnsupportedAccess);  // enabled: disable first
-  EXPECT_EQ(write({0x1800, 1}, 0x186, 4), Abort::kInvalidValue);   // enabled: the identifier stays
+  EXPECT_EQ(write({0x1A00, 0}, 0, 1), Abort::kUnsupportedAccess);  // enabled: it must be disabled first
+  EXPECT_EQ(write({0x1800, 1}, 0x186, 4), Abort::kInvalidValue);   // enabled: the identifier is fixed
   ASSERT_EQ(write({0x1800, 1}, kOff | 0x185, 4), Abort::kNone);
   EXPECT_EQ(write({0x1A00, 1}, 0x60640020, 4), Abort::kUnsupportedAccess);  // the count is not 0
   ASSERT_EQ(write({0x1A00, 0}, 0, 1), Abort::kNone);
@@ -161,8 +161,8 @@ TEST_F(Pdos, OfTheWrongLengthAreNotTaken) {
 
 TEST_F(Pdos, DrivenByEventsComeOnChangeWithInhibitAndTimer) {
   ASSERT_EQ(write({0x1800, 1}, kOff | 0x185, 4), Abort::kNone);
-  ASSERT_EQ(write({0x1800, 3}, 20, 2), Abort::kNone);  // 2 ms between two
-  ASSERT_EQ(write({0x1800, 5}, 50, 2), Abort::kNone);  // at least every 50 ms
+  ASSERT_EQ(write({0x1800, 3}, 20, 2), Abort::kNone);  // inhibit time 2 ms
+  ASSERT_EQ(write({0x1800, 5}, 50, 2), Abort::kNone);  // event timer 50 ms
   ASSERT_EQ(write({0x1800, 1}, 0x185, 4), Abort::kNone);
   pdos_.begin();
   EXPECT_EQ(pdos_.due_by_event(1000).size(), 1U);  // at once

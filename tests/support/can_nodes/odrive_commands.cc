@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulated ODrive can be told to do wrong, one line each; numbers in C's notation (0x.. is hexadecimal):
+// Commands that make a simulated ODrive misbehave, one per line; numbers in C's notation (0x.. is hexadecimal):
 //
-//   cut | reconnect               the cable: no frame in or out; the drive lives on
+//   cut | reconnect               the cable: no frame in or out; the drive keeps running
 //   reboot [MS]                   power off and on; silent for MS (default: its boot time)
 //   error BITS                    an axis error, which disarms
 //   firmware MAJOR MINOR REVISION
@@ -9,9 +9,9 @@
 //   bad-encoder on|off            estimates that are not a number
 //   heartbeat on|off
 //   arming on|off                 off: it never reaches closed loop
-//   mode CONTROL INPUT            somebody else changed the controller's mode
+//   mode CONTROL INPUT            another client changed the controller's mode
 //   bus VOLT                      the supply
-//   note-torque on|off            record where torque begins and ends
+//   note-torque on|off            record the beginning and the end of torque
 //   report
 #include "tests/support/can_nodes/odrive_node.h"
 #include "tests/support/can_nodes/text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// odrive-node INTERFACE --node-id N ...: a simulated ODrive axis with a joint behind it, on a CAN interface.
+// odrive-node INTERFACE --node-id N ...: a simulated ODrive axis with a joint, on a CAN interface.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -15,7 +15,7 @@ int run(int argc, char** argv) {
   OdriveNodeConfig config;
   config.plant = realistic_plant();
   config.plant.delay.periods = 0.0;
-  config.plant.period_s = 0.5e-3;  // the drive's own control period, as good as continuous at 1 kHz
+  config.plant.period_s = 0.5e-3;  // the drive's own control period, almost continuous at 1 kHz
   config.plant.substeps = 5;
   std::string interface;
   std::string control;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of odrive_node.h that says what its messages hold.
+// The contents of the messages of odrive_node.h.
 #include <algorithm>
 #include <bit>
 #include <cmath>

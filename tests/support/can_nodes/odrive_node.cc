@@ -20,7 +20,7 @@ constexpr std::uint8_t kProcedureSuccess = 0;
 constexpr std::uint8_t kProcedureDisarmed = 3;
 constexpr double kVelocityShare = 0.3;
 
-// Of a frame that is to be taken; an input that is no number is not.
+// Takes a value from a frame into `input`. Ignores a value that is not finite.
 bool take(double& input, double value) {
   if (std::isfinite(value)) input = value;
   return std::isfinite(value);
@@ -165,7 +165,7 @@ void OdriveNode::obey(OdriveCommand command, const Frame& frame) {
   }
 }
 
-// Arbitrary parameters: opcode 0 reads the endpoint, 1 writes it.
+// Sends the cyclic messages that are due.
 void OdriveNode::send_cyclic() {
   const auto cyclic = [&](OdriveCommand command, std::int64_t period_us) {
     auto& next_us = next_cyclic_us_[command];
@@ -210,14 +210,14 @@ std::int64_t OdriveNode::next_deadline_us() const {
   return next;  // cyclic messages are sent at the drive's steps
 }
 
-// Drive side, by the drive's published cascade: proportional in position, proportional and integral in velocity.
+// Drive side. The drive's published cascade: proportional in position, proportional-integral in velocity.
 double OdriveNode::wanted_torque_Nm() {
   double wanted_Nm = input_torque_Nm_;
   if (control_mode_ >= kVelocityControl) {
     double wanted_turns_s = input_velocity_turns_s_;
     if (control_mode_ == kPositionControl)
       wanted_turns_s += 0.25 * config_.velocity_bandwidth_rad_s * (input_position_turns_ - encoder_turns());
-    // The inertia is the joint's, a turn the encoder's.
+    // The inertia is at the joint, a turn is the encoder's.
     const double gain_Nm_per_turn_s = config_.velocity_bandwidth_rad_s * config_.plant.joint.inertia_kgm2 *
                                       2.0 * std::numbers::pi * config_.joint_turns_per_encoder_turn /
                                       config_.joint_torque_per_drive_torque;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated ODrive axis that speaks CANSimple as firmware 0.6 does, with a joint behind it. Like
-// cia402_node.h it shares nothing with drivers/, knows no sockets and no clock, and misbehaves on request.
+// A simulated ODrive axis with a joint, which speaks CANSimple as firmware 0.6 does. Like cia402_node.h it
+// shares no code with drivers/, uses no sockets and no clock, and misbehaves on command.
 // Source: ODrive's documentation, "CAN Protocol" and the reference of ODrive.Axis.Error, firmware 0.6.
 //
-// Where the documentation leaves a choice the stricter one is taken: the watchdog is fed by input messages
-// only, and runs from the first of them on, armed or not; closed loop begins at the last input, wherever the joint is.
+// If the documentation leaves a choice, the node is strict: only input messages feed the watchdog, which runs
+// from the first of them on, armed or not. Closed loop begins at the last input, wherever the joint is.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ enum class OdriveCommand : std::uint8_t {
   kHeartbeat = 0x01,
   kEstop = 0x02,
   kGetError = 0x03,
-  kReadOrWrite = 0x04,  ///< the documentation's RxSdo
-  kValue = 0x05,        ///< TxSdo
+  kReadOrWrite = 0x04,  ///< RxSdo in the documentation: opcode 0 reads an endpoint, 1 writes it
+  kValue = 0x05,        ///< TxSdo in the documentation
   kSetAxisState = 0x07,
   kEncoderEstimates = 0x09,
   kSetControllerMode = 0x0B,
@@ -57,12 +57,12 @@ struct OdriveNodeConfig {
   OdriveVersion version;
   JointPlantConfig plant;
   TemperatureProfile ambient;
-  double counts_per_joint_revolution = 320000;  ///< of the encoder that the estimates come from
+  double counts_per_joint_revolution = 320000;  ///< of the encoder that the estimates use
   double joint_turns_per_encoder_turn =
       0.02;  ///< 1 / gear ratio, or 1 for an encoder at the joint; < 0: reversed
   double joint_torque_per_drive_torque = 50.0;  ///< gear ratio, with the same sign
   double torque_limit_Nm = 1.0;                 ///< of the drive
-  double velocity_bandwidth_rad_s = 200.0;      ///< of its own loop; that of position has a quarter
+  double velocity_bandwidth_rad_s = 200.0;      ///< of its own velocity loop; the position loop has a quarter
   double velocity_units_per_turn_s = 1000.0;    ///< axis0.config.can.input_vel_scale
   double torque_units_per_Nm = 1000.0;          ///< axis0.config.can.input_torque_scale
   double torque_constant_Nm_A = 0.192;
@@ -92,7 +92,7 @@ class OdriveNode final : public Node {
   void receive(const Frame& frame, std::int64_t now_us) override;
   void advance(std::int64_t now_us) override;
   std::int64_t next_deadline_us() const override;
-  /// One line of what to do wrong; odrive_commands.cc lists them.
+  /// Obeys one line that makes the node misbehave; odrive_commands.cc lists them.
   std::string command(std::string_view line, std::int64_t now_us) override;
 
   OdriveState state() const { return state_; }
@@ -135,7 +135,7 @@ class OdriveNode final : public Node {
   std::uint32_t errors_ = 0;
   std::uint32_t disarm_reason_ = 0;
   std::uint8_t procedure_result_ = 0;
-  std::uint32_t control_mode_ = 3;  ///< position: what a fresh drive has
+  std::uint32_t control_mode_ = 3;  ///< position, as after power-on
   std::uint32_t input_mode_ = 1;
   // Drive side.
   double input_position_turns_ = 0.0;
@@ -147,7 +147,7 @@ class OdriveNode final : public Node {
   double bus_V_;
   long inputs_ = 0;
 
-  // What it does wrong.
+  // Misbehaviour that commands request.
   bool cable_cut_ = false;
   bool heartbeat_off_ = false;
   bool refuses_to_arm_ = false;

@@ -86,7 +86,7 @@ std::uint32_t PdoTable::id_of(std::uint16_t communication) const {
 Abort PdoTable::check_communication(Key key, std::int64_t value) const {
   switch (key.sub) {
     case 1: {
-      // The identifier of a PDO that exists stays; disable it first, without changing it.
+      // An enabled PDO keeps its identifier. It must be disabled first, without a change of the identifier.
       if (enabled(key.index) && (dictionary_.number(key) & kIdMask) != (value & kIdMask))
         return Abort::kInvalidValue;
       if ((value & kDisabled) != 0) return Abort::kNone;
@@ -104,7 +104,7 @@ Abort PdoTable::check_communication(Key key, std::int64_t value) const {
 
 Abort PdoTable::check_mapping(Key key, std::int64_t value) const {
   if (!configurable_) return Abort::kDeviceState;
-  // 1600h belongs to 1400h, 1A00h to 1800h. A PDO that cannot be switched off is changed as it is.
+  // 1600h belongs to 1400h, 1A00h to 1800h. A PDO that cannot be disabled is changed while enabled.
   const auto communication = static_cast<std::uint16_t>(key.index - 0x200);
   if (enabled(communication) && dictionary_.find({communication, 1})->access == Access::kReadWrite)
     return Abort::kUnsupportedAccess;
@@ -149,7 +149,7 @@ std::vector<std::uint8_t> PdoTable::pack(std::uint16_t mapping) const {
 void PdoTable::unpack(std::uint16_t mapping, std::span<const std::uint8_t> bytes) {
   for (const Key key : mapped(mapping)) {
     const std::size_t size = size_of(dictionary_.find(key)->type);
-    // A value out of its range is dropped, as a drive does: nobody could be told.
+    // A value out of its range is dropped, as in a drive: a PDO has no answer.
     static_cast<void>(dictionary_.write(key, bytes.first(size)));
     bytes = bytes.subspan(size);
   }

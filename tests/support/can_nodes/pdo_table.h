@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The PDOs of a simulated CANopen node: four each way, configured through the object dictionary by the rules
-// of the standard (disable, count 0, map, count, enable; anything else is refused). Source: CiA 301 (4.2.0),
-// 7.2.2 and 7.5.2.35 to 7.5.2.38.
+// The PDOs of a simulated CANopen node, four per direction. They are configured through the object dictionary
+// by the rules of the standard: disable, count 0, map, count, enable; anything else is refused. Source: CiA
+// 301 (4.2.0), 7.2.2 and 7.5.2.35 to 7.5.2.38.
 #pragma once
 
 #include <array>
@@ -19,35 +19,35 @@ inline constexpr int kMaxMappedObjects = 8;
 
 enum class Reception { kNotMine, kTaken, kTooShort, kTooLong };
 
-/// What happened since the last clear_counts().
+/// Counts since the last clear_counts().
 struct PdoCounts {
   long received = 0;
-  long superseded = 0;          ///< a second RPDO before the SYNC that should have used the first
-  long syncs_without_rpdo = 0;  ///< a synchronous RPDO is enabled and none came since the last SYNC
+  long superseded = 0;          ///< a second RPDO replaced the first one before its SYNC
+  long syncs_without_rpdo = 0;  ///< no RPDO since the last SYNC, although a synchronous one is enabled
   long transmitted = 0;
 };
 
 class PdoTable {
  public:
-  /// Adds 1400h.., 1600h.., 1800h.. and 1A00h.. to `dictionary`. Every PDO begins disabled and unmapped, but
-  /// for the profile's first ones: controlword in, statusword out.
+  /// Adds 1400h.., 1600h.., 1800h.. and 1A00h.. to `dictionary`. Every PDO begins disabled and unmapped,
+  /// except the profile's first ones: controlword in, statusword out.
   PdoTable(ObjectDictionary& dictionary, std::uint8_t node_id);
 
-  /// Whether the node is in a state that lets PDOs be configured.
+  /// Sets whether PDOs may be configured in the node's state.
   void set_configurable(bool configurable) { configurable_ = configurable; }
 
   Reception receive(const Frame& frame, std::int64_t now_us = 0);
-  /// When the first deadline of an RPDO passes that has come since begin(); the deadline begins with the first.
+  /// The earliest deadline of the RPDOs that have come since begin(). The first reception starts the monitoring.
   std::optional<std::int64_t> rpdo_deadline_us() const;
-  /// It was missed, and has been told: it begins again with the next one.
+  /// Forgets the receptions after a missed deadline was reported. Deadlines run again from the next RPDO on.
   void forget_rpdos() { received_us_ = {}; }
-  /// A SYNC came: uses the synchronous RPDOs that were held for it.
+  /// At a SYNC: applies the synchronous RPDOs that were held for it.
   void use_held();
-  /// A SYNC came: the TPDOs that are due with it, as the dictionary is now.
+  /// At a SYNC: the TPDOs that are due with it, with the present values of the dictionary.
   std::vector<Frame> due_at_sync();
   /// The event-driven TPDOs that are due.
   std::vector<Frame> due_by_event(std::int64_t now_us);
-  /// The node became operational: what was held is stale, event-driven TPDOs are due at once.
+  /// The node became operational: held RPDOs are stale, and event-driven TPDOs are due at once.
   void begin();
 
   const PdoCounts& counts() const { return counts_; }

@@ -74,7 +74,7 @@ Frame SdoServer::begin_download(const Frame& request) {
   const bool sized = (request.data[0] & 0x01) != 0;
   if (const Abort code = refused(key); code != Abort::kNone) return abort(key, code);
   if (expedited) {
-    // Without a size the object's own decides how many of the four bytes count.
+    // Without a given size, the object's size decides how many of the four bytes count.
     const Object* object = dictionary_.find(key);
     const std::size_t natural = object != nullptr ? size_of(object->type) : kExpeditedBytes;
     const std::size_t size = sized ? kExpeditedBytes - ((request.data[0] >> 2) & 0x03) : natural;
@@ -104,7 +104,7 @@ Frame SdoServer::download_segment(const Frame& request) {
       return abort(done.key, Abort::kLength);
     return store(done.key, done.bytes, specifier);
   }
-  // Nothing here is longer than four bytes.
+  // No object here is longer than four bytes.
   if (transfer_.bytes.size() > kExpeditedBytes) return abort(transfer_.key, Abort::kLengthTooHigh);
   transfer_.toggle = !transfer_.toggle;
   return {0x580U + node_id_, {specifier, 0, 0, 0, 0, 0, 0, 0}};

@@ -17,10 +17,10 @@ class SdoServer {
   SdoServer(ObjectDictionary& dictionary, std::uint8_t node_id)
       : dictionary_(dictionary), node_id_(node_id) {}
 
-  /// The answer to a frame with the server's identifier (600h + node); none to what needs none.
+  /// The answer to a frame with the server's identifier (600h + node), or none if none is needed.
   std::optional<Frame> answer(const Frame& request);
 
-  /// Refuses reading and writing of the object with this code from now on; kNone: no longer.
+  /// From now on, refuses to read or write the object with this code. kNone ends that.
   void refuse(Key key, Abort abort);
   void reset() { transfer_ = Transfer{}; }
 
@@ -32,7 +32,7 @@ class SdoServer {
     std::vector<std::uint8_t> bytes;
     std::size_t announced_size = 0;  ///< of a download; 0: not announced
     std::size_t sent = 0;            ///< of an upload
-    bool toggle = false;             ///< what the next segment must have
+    bool toggle = false;             ///< required in the next segment
   };
 
   Frame begin_download(const Frame& request);

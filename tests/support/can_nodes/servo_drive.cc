@@ -12,7 +12,7 @@ namespace {
 constexpr double kStandstill_rad_s = 1e-3;
 /// Share of the newest difference in the drive's velocity estimate: a low-pass of about three periods.
 constexpr double kVelocityFilterShare = 0.3;
-/// Share of the momentum that a quick stop takes away in each period, torque permitting.
+/// Share of the momentum that a quick stop removes in each period, as far as the torque allows.
 constexpr double kBrakingShare = 0.2;
 
 bool closes_loop(std::int64_t mode) {
@@ -81,7 +81,7 @@ void ServoDrive::obey_controlword() {
     dictionary_.set({0x603F, 0}, 0);
     if (events_.error_reset) events_.error_reset();
   }
-  // The brake takes its time; until it is open the drive stays switched on.
+  // The brake needs time. Until it is open, the drive stays switched on.
   const bool starts = to == PowerState::kOperationEnabled && power_ == PowerState::kSwitchedOn;
   if (starts && config_.enable_delay_us > 0) {
     if (!enabling_) in_state_us_ = 0;
@@ -115,13 +115,13 @@ void ServoDrive::advance_power() {
   }
 }
 
-// What a drive lacks limits nothing.
+// A limit object that the drive does not have limits nothing.
 double ServoDrive::limit_permille(std::uint16_t index) const {
   return dictionary_.find({index, 0}) == nullptr ? INT16_MAX
                                                  : static_cast<double>(dictionary_.number({index, 0}));
 }
 
-// Bit 12. In IP the master has to ask for it, by bit 4 of the controlword.
+// Bit 12. In IP the master must request it with bit 4 of the controlword.
 bool ServoDrive::follows() const {
   const std::int64_t mode = dictionary_.number({0x6061, 0});
   return power_ == PowerState::kOperationEnabled && mode != kModeTorqueProfile &&
@@ -160,7 +160,7 @@ double ServoDrive::target_torque_Nm() {
   return std::clamp(wanted, low, high) * joint_torque_per_permille();
 }
 
-// Joint side: against the motion.
+// Joint side, against the motion.
 double ServoDrive::braking_torque_Nm() const {
   const double limit_Nm = limit_permille(0x6072) * std::abs(joint_torque_per_permille());
   const double wanted_Nm = -kBrakingShare * plant_.config().joint.inertia_kgm2 *

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated servo drive of the profile CiA 402 around the project's joint plant: power states, torque modes
-// (CST and TQ), position and velocity modes with a cascade of its own (IP, CSP and CSV), reactions to faults and to a lost connection, drive units. It knows the object dictionary but
-// no network. Each step() is one control period of the drive. Source: CiA 402-2 (IEC 61800-7-201).
+// A simulated servo drive of the profile CiA 402 around the project's joint plant: power states, drive units, reactions to
+// faults and to a lost connection. Its modes are torque (CST, TQ), and position and velocity with its own cascade (IP, CSP, CSV).
+// It uses the object dictionary but no network. Each step() is one control period. Source: CiA 402-2 (IEC 61800-7-201).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline constexpr int kModeCyclicPosition = 8;
 inline constexpr int kModeCyclicVelocity = 9;
 inline constexpr int kModeCyclicTorque = 10;
 
-/// Error codes of CiA 301 (table 26) and CiA 402 that the drive raises by itself.
+/// Error codes of CiA 301 (table 26) and CiA 402 that the drive itself raises.
 inline constexpr std::uint16_t kErrorHeartbeat = 0x8130;
 inline constexpr std::uint16_t kErrorFollowing = 0x8611;
 inline constexpr std::uint16_t kErrorPdoLength = 0x8210;
@@ -38,17 +38,17 @@ struct ServoDriveConfig {
   JointPlantConfig plant;  ///< its encoder is set from counts_per_joint_revolution
   TemperatureProfile ambient;
   double counts_per_joint_revolution = 320000;  ///< of 6064h
-  double rated_torque_Nm = 0.192;               ///< on the side that joint_torque_per_drive_torque says
+  double rated_torque_Nm = 0.192;               ///< on the side that joint_torque_per_drive_torque implies
   double joint_torque_per_drive_torque =
-      50.0;  ///< gear ratio, or 1 when the drive speaks of the joint; < 0: reversed
+      50.0;  ///< gear ratio, or 1 if the drive's torques are the joint's; < 0: reversed
   double rated_current_A = 1.0;
-  double rated_torque_units_per_Nm = 1000.0;  ///< of 6076h: 1000 is the profile's, 1e6 what some drives have
+  double rated_torque_units_per_Nm = 1000.0;  ///< of 6076h: 1000 in the profile, 1e6 in some drives
   bool has_cst = true;
   bool has_tq = true;
   bool has_ip = false;
   bool has_csp = false;
   bool has_csv = false;
-  double velocity_bandwidth_rad_s = 200.0;  ///< of its own loop; that of position has a quarter
+  double velocity_bandwidth_rad_s = 200.0;  ///< of its own velocity loop; the position loop has a quarter
   std::int64_t self_test_us = 20000;        ///< from power-on to Switch on disabled
   std::int64_t enable_delay_us = 10000;     ///< brake and current loop: Switched on to Operation enabled
   std::int64_t temperature_period_us = 100000;
@@ -62,29 +62,29 @@ class ServoDrive {
     std::function<void(PowerState from, PowerState to)> power_changed;
     std::function<void(std::uint16_t code)> error_raised;
     std::function<void()> error_reset;
-    std::function<void()> at_rest;  ///< the joint stands still after power was taken from it
+    std::function<void()> at_rest;  ///< the joint is at rest after its power was removed
   };
 
   /// Adds its objects to `dictionary`. Throws InputError for an impossible plant.
   ServoDrive(const ServoDriveConfig& config, ObjectDictionary& dictionary, Events events);
 
-  /// Power-on, or the profile's part of a reset: the joint stays where it is.
+  /// Power-on, or the profile's part of a reset. The joint keeps its position.
   void restart();
-  /// 6040h was written.
+  /// Applies 6040h after it was written.
   void obey_controlword();
-  /// A SYNC: what was ordered is where to be at the next one.
+  /// At a SYNC: the ordered setpoint must be reached at the next SYNC.
   void take_setpoint(std::int64_t sync_period_us);
   /// One control period.
   void step();
   void raise_error(std::uint16_t code);
-  /// What 6007h says, when the master is gone or takes the node out of operation.
+  /// Reacts as 6007h says, if the master is lost or takes the node out of operation.
   void lose_connection();
 
   PowerState power() const { return power_; }
   const JointPlant& plant() const { return plant_; }
   double torque_demand_Nm() const { return demand_Nm_; }
   std::int64_t period_us() const { return period_us_; }
-  /// External torque on the joint from now on.
+  /// Sets the external torque on the joint from now on.
   void set_load_torque_Nm(double load_torque_Nm) { load_torque_Nm_ = load_torque_Nm; }
 
  private:
@@ -99,7 +99,7 @@ class ServoDrive {
   void show_state();
   void show_temperature();
   void probe_index(double counts_before, double counts_now);
-  /// Of the drive against the joint: 1 or -1.
+  /// Direction of the drive relative to the joint: 1 or -1.
   double direction() const;
   double drive_counts() const;
   double joint_torque_per_permille() const;
@@ -119,7 +119,7 @@ class ServoDrive {
   double demand_Nm_ = 0.0;        ///< joint side
   double ramped_permille_ = 0.0;  ///< of TQ
   MotionLoop loop_;
-  double velocity_counts_s_ = 0.0;  ///< as the drive estimates it
+  double velocity_counts_s_ = 0.0;  ///< the drive's estimate
   double load_torque_Nm_ = 0.0;
   std::int64_t since_temperature_us_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated drive's own loop of position or velocity, a SYNC each period.
+// The simulated drive's own loop of position or velocity, with a SYNC each period.
 #include "tests/support/can_nodes/servo_drive.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class OwnLoopDrive : public ::testing::TestWithParam<double> {
     ASSERT_EQ(drive_.power(), PowerState::kOperationEnabled);
   }
   double counts() { return drive_.plant().state().position_rad / (2.0 * M_PI) * 320000.0; }
-  /// Targets that rise: how far the joint is behind the last one when its time has come.
+  /// Follows rising targets. Returns how far the joint is behind the last one when its time has come.
   double follow(Key target, std::int64_t counts_per_sync) {
     const std::int64_t from = std::llround(counts());
     for (int i = 0; i < 1000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of servo_drive.h that is its object dictionary: what there is, and what it shows.
+// The object dictionary of servo_drive.h: its objects, and the values that they show.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -82,7 +82,7 @@ double ServoDrive::drive_counts() const {
          config_.counts_per_joint_revolution;
 }
 
-// Touch probe 1, by the index, the first rising edge after its being enabled.
+// Touch probe 1 latches the first rising edge of the index after it is enabled.
 void ServoDrive::probe_index(double counts_before, double counts_now) {
   constexpr std::int64_t kEnable = 1;
   constexpr std::int64_t kIndexRises = 1 << 2 | 1 << 4;
@@ -100,7 +100,7 @@ void ServoDrive::probe_index(double counts_before, double counts_now) {
 }
 
 void ServoDrive::show_state() {
-  // The drive's counter is a 32-bit register: it wraps.
+  // The drive's counter is a 32-bit register, which wraps.
   dictionary_.set({0x6064, 0}, static_cast<std::int32_t>(std::llround(drive_counts())));
   dictionary_.set({0x606C, 0}, static_cast<std::int32_t>(std::llround(direction() * velocity_counts_s_)));
   const auto permille = [&](double torque_Nm) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text for the nodes' records and from their commands.
+// Text of the nodes' records and commands.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace strainwave::can_nodes {
 
-/// As printf does it, up to 255 characters; the compiler checks the arguments against the pattern.
+/// Formats like printf, up to 255 characters. The compiler checks the arguments against the pattern.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
 std::vector<std::string> words_of(std::string_view line);

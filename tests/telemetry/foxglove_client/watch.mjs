@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches a telemetry server with the client of the protocol's inventors, and prints what came as one line of JSON.
+// Watches a telemetry server with the reference client of the protocol and prints the received data as one line of JSON.
 //
 //   node watch.mjs URL SECONDS [--slow]     --slow: reads nothing for half of the time
 import protocol from '@foxglove/ws-protocol';

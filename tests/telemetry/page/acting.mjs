@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders from the page of strainwave-telemetry, in Chromium: see acting_check, its parent.
+// Orders from the page of strainwave-telemetry, in Chromium. Started by acting_check.
 //
 //   node acting.mjs SCREENSHOT-FOLDER
 import {obey, openPage, problems, rowsOf, say, sleep, until, violationsOf, widthWhenSmall} from './browser.mjs';
 
 const [, , pictures] = process.argv;
 const JOG_S = 1;
-const SHOWN_S = 0.5; // until a page that was hidden shows what is
+const SHOWN_S = 0.5; // time until a page that was hidden is up to date
 const tabs = {};
 const mode = async (tab) => (await rowsOf(tab))[0][1];
 const position_rad = async (tab) => Number((await rowsOf(tab))[0][2]);
@@ -21,7 +21,7 @@ async function press(tab, selector) {
   await tab.mouse.move(...await center(tab, selector));
   await tab.mouse.down();
 }
-/** How far the joint has gone since, how long until it holds, and how far it goes then. */
+/** Returns how far the joint moved until it held, how long that took, and how far it moves afterwards. */
 async function stopped(tab, from_rad, wanted = 'holding') {
   const seconds = await until(async () => await mode(tab) === wanted, 5);
   const rest_rad = await position_rad(tab);
@@ -55,7 +55,7 @@ const steps = {
     await tab.mouse.up();
     say({during, ...await stopped(tab, from_rad)});
   },
-  // Another page comes to the front while the button is held.
+  // Another page comes to the front while the jog button is held.
   async hide(name) {
     const tab = tabs[name];
     await tab.bringToFront();
@@ -66,13 +66,13 @@ const steps = {
     await other.bringToFront();
     await sleep(JOG_S);
     await other.close();
-    await tab.bringToFront(); // hidden, it shows nothing; the button is still held
+    await tab.bringToFront(); // a hidden page shows nothing new; the button is still held
     await sleep(SHOWN_S);
     const result = await stopped(tab, from_rad);
     await tab.mouse.up();
     say(result);
   },
-  // Of two tabs that jog: the second is refused. Then the first is closed.
+  // Two tabs jog, and the second one is refused. Then the first one is closed.
   async close(name, url) {
     const first = await openPage(url);
     await until(async () => (await rowsOf(first)).length > 0, 10);
@@ -91,7 +91,7 @@ const steps = {
     await sleep(SHOWN_S);
     say({refused, ...await stopped(tab, from_rad)});
   },
-  // By the keyboard alone: Enter jogs, the space bar stops while Enter is still held.
+  // Keyboard only: Enter jogs, and the space bar stops while Enter is still held.
   async space(name) {
     const tab = tabs[name];
     await tab.bringToFront();
@@ -105,12 +105,12 @@ const steps = {
     await tab.keyboard.up('Enter');
     say({during, ...result});
   },
-  // While the plots stand still, the table and what is quoted from it go on. A held Enter orders once.
+  // While the plots are paused, the table and the quoted challenge keep updating. A held Enter sends one order.
   async pause(name) {
     const tab = tabs[name];
     await tab.bringToFront();
     await tab.click('#pause');
-    await sleep(2.5); // longer than a challenge is valid
+    await sleep(2.5); // longer than the lifetime of a challenge
     await tab.$eval('#answers', (list) => list.replaceChildren());
     await tab.focus('#enable');
     for (let i = 0; i < 4; ++i) await tab.keyboard.down('Enter');
@@ -125,10 +125,10 @@ const steps = {
     await tab.bringToFront();
     await tab.reload();
     const seconds = await until(async () => await tab.$('#stop') !== null && await visible(tab, '#orders-panel'), 10);
-    await sleep(1.5); // as above
+    await sleep(1.5); // the limits come once a second
     say({panel: seconds !== null});
   },
-  // strainwave-telemetry stands still.
+  // strainwave-telemetry is suspended.
   async silence(name) {
     const tab = tabs[name];
     await tab.bringToFront();
@@ -137,7 +137,7 @@ const steps = {
     clearInterval(stops);
     say({seconds, answers: await answers(tab)});
   },
-  // The page's own orders once more, by a connection of the page that shows no token, then with it; and an old order again.
+  // Repeats the page's orders on a connection that has not yet sent the token, and then with the token. Also repeats an old order.
   async replay(name) {
     say(await tabs[name].evaluate(async () => {
       const {token} = history.state;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Debian's Chromium for the tests of the page, and the conversation with their parent: a word and its arguments a line, answered by a line of JSON.
+// Debian's Chromium for the tests of the page. The parent sends a word and its arguments a line and gets a line of JSON.
 import readline from 'node:readline';
 import axe from 'axe-core';
 import puppeteer from 'puppeteer-core';
 
 const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
 
-/** What the console, or a dialog, complained of. */
+/** Errors of the page, from its console or a dialog. */
 export const problems = [];
 
 export async function openPage(url) {
@@ -27,7 +27,7 @@ export const say = (value) => console.log(JSON.stringify(value));
 export const rowsOf = (page) => page.$$eval('#joints tr', (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
 export const textOf = (page, selector) => page.$eval(selector, (element) => element.textContent);
 
-/** Seconds until `condition`, or null. */
+/** Waits for `condition`. Returns the seconds that it took, or null after `seconds`. */
 export async function until(condition, seconds) {
   const begin = Date.now();
   while (Date.now() - begin < 1000 * seconds) {
@@ -37,12 +37,12 @@ export async function until(condition, seconds) {
   return null;
 }
 
-/** What axe finds, by colour scheme. */
+/** Accessibility violations that axe finds, by colour scheme. */
 export async function violationsOf(page) {
   const found = {};
   for (const scheme of ['light', 'dark']) {
     await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
-    // By the browser's debugger, which the page's policy does not bind.
+    // Uses the browser's debugger, to which the page's security policy does not apply.
     await page.evaluate(axe.source);
     const {violations} = await page.evaluate(() => axe.run());
     found[scheme] = violations.map(({id, nodes}) => `${id}: ${nodes.map((node) => node.html).slice(0, 3).join(' ')}`);
@@ -50,14 +50,14 @@ export async function violationsOf(page) {
   return found;
 }
 
-/** The page's width where the window is as narrow as a telephone. */
+/** The page's width in a window as narrow as a telephone. */
 export async function widthWhenSmall(page) {
   await page.setViewport({width: 360, height: 800});
   await sleep(0.3);
   return page.evaluate(() => document.documentElement.scrollWidth);
 }
 
-/** Does what the parent says until it closes its end. */
+/** Runs the steps that the parent orders, until the parent closes the pipe. */
 export async function obey(steps) {
   for await (const line of readline.createInterface({input: process.stdin})) {
     const [step, ...words] = line.split(' ');

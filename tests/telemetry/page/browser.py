@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The browser of the tests of the page, and what stands on both sides of it."""
+"""Helpers of the page tests: the browser, the addresses of the page, and the daemon."""
 import json
 import pathlib
 import shutil
@@ -12,7 +12,7 @@ from beside import expect
 
 
 class Page:
-    """The browser's side, which answers a line of words with one line of JSON."""
+    """The browser process, which answers a line of words with one line of JSON."""
 
     def __init__(self, packages, script, *words):
         self.process = subprocess.Popen(['node', script, *words], cwd=packages, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -38,7 +38,7 @@ def need_chromium():
 
 
 def addresses(telemetry, count=1):
-    """Of the page, and with `count` 2 of the one with the token, as strainwave-telemetry prints them."""
+    """Returns the addresses that strainwave-telemetry prints: the page, and with `count` 2 the page with the token."""
     lines = [telemetry.stdout.readline() for _ in range(2 + count)]
     return [line.split()[-1] for line in lines[2:]]
 

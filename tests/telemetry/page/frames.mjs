@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processor time that the page of strainwave-telemetry takes in Chromium: see frames_check, its parent.
+// Processor time of the page of strainwave-telemetry in Chromium. Started by frames_check.
 //
 //   node frames.mjs URL
 import {obey, openPage, rowsOf, say, sleep, until} from './browser.mjs';
@@ -7,14 +7,14 @@ import {obey, openPage, rowsOf, say, sleep, until} from './browser.mjs';
 const [, , url] = process.argv;
 const page = await openPage(url);
 
-/** Milliseconds of the page's main thread for one state and for one redraw, by Chromium's trace. Time that other programs take does not count. */
+/** Milliseconds of the page's main thread for one state and for one redraw, from Chromium's trace. Time of other programs does not count. */
 function workOf(traceEvents) {
   const of = (name, tid) => traceEvents.filter((event) => event.name === name && event.tid === tid);
   const renderers = traceEvents.filter(({name, args}) => name === 'thread_name' && args.name === 'CrRendererMain').map(({tid}) => tid);
-  const main = renderers.find((tid) => of('WebSocketReceive', tid).length > 0); // the others are spare
+  const main = renderers.find((tid) => of('WebSocketReceive', tid).length > 0); // the other renderers are spare
   const tasks = of('RunTask', main).filter(({tdur}) => tdur > 0);
   const sum_ms = (list) => list.reduce((sum, {tdur}) => sum + tdur / 1000, 0);
-  // A redraw is the script of a timer, and what brings its picture to the screen.
+  // A redraw is a timer's script and the tasks that bring its picture to the screen.
   const begins_us = ['TimerFire', 'Commit', 'Paint'].flatMap((name) => of(name, main)).map(({ts}) => ts);
   const drawing_ms = sum_ms(tasks.filter(({ts, dur}) => begins_us.some((begin_us) => begin_us >= ts && begin_us <= ts + dur)));
   const [states, redraws] = ['WebSocketReceive', 'TimerFire'].map((name) => of(name, main).length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the page keeps of 64 joints at 50 Hz, in virtual time: once ten minutes are full, memory does not grow, and the last ten minutes are there.
+// The page's memory of 64 joints at 50 Hz, in virtual time. After ten minutes it does not grow, and it holds the last ten minutes.
 //
 //   node history.mjs HISTORY.JS
 import fs from 'node:fs';

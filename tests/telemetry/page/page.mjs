@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Before the page of strainwave-telemetry, in Chromium: numbers, plots, a fault, recordings, hostile names, keys, small screens, accessibility.
-// Talks to its parent: prints a line of JSON for each answer, and reads one word a line.
+// Tests the page of strainwave-telemetry in Chromium: numbers, plots, a fault, recordings, hostile names, keys, small screens, accessibility. The
+// parent sends one word a line and gets a line of JSON for each answer.
 //
 //   node page.mjs URL RECORDING-CSV RECORDING-MCAP HOSTILE-CSV SCREENSHOT-FOLDER
 import fs from 'node:fs';
@@ -12,7 +12,7 @@ const page = await openPage(url);
 const rows = () => rowsOf(page);
 const text = (selector) => textOf(page, selector);
 const cell = async (joint, column) => (await rows()).find((row) => row[0] === joint)?.[column];
-// Pixels of the plots' areas in the colour of a curve: neither ground nor grid nor text, which are grey.
+// Counts the pixels of the plots that have a curve's colour. Background, grid and text are grey.
 const curvePixels = () => page.$$eval('#plots canvas', (list) => list.map((canvas) => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   let coloured = 0;
@@ -33,7 +33,7 @@ const steps = {
     say({rows: await rows()});
   },
   async plots() {
-    await page.keyboard.press('1'); // ten seconds
+    await page.keyboard.press('1'); // shows the last ten seconds
     await sleep(3);
     await page.screenshot({path: `${pictures}/page.png`});
     say({pixels: await curvePixels()});
@@ -73,13 +73,13 @@ const steps = {
       curves: report.querySelectorAll('svg path').length, connection: document.getElementById('connection').textContent, problem: document.getElementById('problem').textContent,
     })));
   },
-  // What is there after the page was left and opened again.
+  // The reports that remain after the page is left and opened again.
   async reload() {
     await page.reload();
     await until(async () => (await rows()).length > 0, 10);
     say({titles: await page.$$eval('#reports > details > summary', (list) => list.map((title) => title.textContent)), hidden: await page.$eval('#reports-section', (section) => section.hidden)});
   },
-  // The first one.
+  // Removes the first report.
   async remove() {
     await page.$eval('#reports > details', (report) => { report.open = true; });
     await page.click('#reports > details button');
@@ -93,7 +93,7 @@ const steps = {
   },
   async accessibility() { say(await violationsOf(page)); },
   async small() { say({width: await widthWhenSmall(page)}); },
-  // A server without a key: neither the program that orders motions nor an answer to an order.
+  // A server without a key offers no script for orders and answers no order.
   async orders() {
     const {status} = await fetch(new URL('acting.js', url));
     const answer = await page.evaluate(() => new Promise((done) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whoever connects to strainwave-telemetry may be hostile or merely slow: it stays up, small, and there for the others.
+// Clients of strainwave-telemetry may be hostile or slow. The server must keep running, stay small and serve the others.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace strainwave::testing {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryIsOurs = false;  // the sanitizer keeps what was freed, and shadows the rest
+constexpr bool kMemoryIsOurs = false;  // the sanitizer keeps freed memory and adds shadow memory
 #else
 constexpr bool kMemoryIsOurs = true;
 #endif
@@ -28,7 +28,7 @@ constexpr bool kMemoryIsOurs = true;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-/// Somebody who says much on LCM: 4 kB of JSON, some thousand times a second.
+/// Publishes large messages on LCM: 4 kB as JSON, thousands of times a second.
 class Chatter {
  public:
   Chatter() : thread_([this] { run(); }) {}
@@ -54,7 +54,7 @@ class Chatter {
   std::thread thread_;
 };
 
-/// The number under which the server offers SW.TIMING.
+/// Returns the server's id of the topic SW.TIMING.
 std::uint32_t timing_topic(const RawClient& viewer) {
   const std::string text = viewer.read_until("\"topic\":\"SW.TIMING\"");
   const std::size_t channel = text.rfind("{\"encoding\"");
@@ -66,14 +66,14 @@ std::string subscribe(std::uint32_t topic) {
   return Json{{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", topic}}}}}.dump();
 }
 
-// Of 512 joints a page takes long to make: a crowd would keep everybody else waiting.
+// The page of 512 joints takes long to build. Many clients at once would delay all others, so they share one page.
 TEST(HostileClient, WhoFetchesTheMetricsWithOthersGetsTheSamePage) {
   const RunningTelemetry telemetry;
   const Chatter chatter;
   int same = 0;
   for (int i = 0; i < 20; ++i) {
     const std::string page = telemetry.metrics();
-    std::this_thread::sleep_for(std::chrono::milliseconds(15));  // its count of messages rises meanwhile
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));  // the message count rises meanwhile
     same += telemetry.metrics() == page ? 1 : 0;
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
   }
@@ -151,7 +151,7 @@ TEST(HostileClient, WhoReadsNothingLosesMessagesAndCostsNoMemory) {
   while (telemetry.metric("strainwave_telemetry_dropped_messages_total") < 2000.0 && Clock::now() < deadline)
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   EXPECT_GE(telemetry.metric("strainwave_telemetry_dropped_messages_total"), 2000.0);
-  // Four queues of 2 MiB, and what the allocator keeps between.
+  // Four queues of 2 MiB and the overhead of the allocator.
   if (kMemoryIsOurs) {
     EXPECT_LT(telemetry.memory_kB() - before_kB, 24 * 1024);
   }
@@ -179,7 +179,7 @@ TEST(HostileClient, SendsJunkAndIsToldSo) {
        {std::string("{"), std::string(60000, '['), std::string("\xff\xff"), std::string(),
         std::string("{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":1,\"channelId\":99}]}")}) {
     ASSERT_TRUE(client.send_text(junk));
-    if (junk == "\xff\xff") break;  // no UTF-8: the WebSocket protocol itself ends there
+    if (junk == "\xff\xff") break;  // not UTF-8: the WebSocket protocol ends here
     EXPECT_NE(client.read_until("\"status\"").find("\"level\":2"), std::string::npos) << junk.substr(0, 20);
   }
   EXPECT_TRUE(client.is_closed_within(5.0));
@@ -240,7 +240,7 @@ TEST(HostileClient, SendsItsRequestSlowlyAndKeepsNobodyElseOut) {
     slow.back()->send("GET /metrics HT");
   }
   EXPECT_FALSE(telemetry.metrics().empty());
-  // The first ones were pushed out, the last ones have ten seconds.
+  // The server closes the oldest connections. The newest may take ten seconds.
   EXPECT_TRUE(slow.front()->is_closed_within(2.0));
   EXPECT_TRUE(slow.back()->is_closed_within(20.0));
 }

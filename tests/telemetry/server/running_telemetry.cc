@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Some bytes; empty: closed, or none for `seconds`.
+/// Returns some bytes, or "" if the other side has closed or nothing comes for `seconds`.
 std::string read_some(int descriptor, double seconds, std::size_t most = 65536) {
   pollfd ready{descriptor, POLLIN, 0};
   if (::poll(&ready, 1, static_cast<int>(seconds * 1e3)) != 1) return "";
@@ -54,7 +54,7 @@ RunningTelemetry::RunningTelemetry(const std::vector<std::string>& options, cons
   std::string said;
   while (said.find("/metrics\n") == std::string::npos) {
     const std::string more = read_some(output_.get(), 10.0);
-    if (more.empty()) return;  // it did not start: port 0
+    if (more.empty()) return;  // the program did not start; port() stays 0
     said += more;
   }
   const std::size_t end = said.find('\n');
@@ -147,7 +147,7 @@ bool RawClient::become_viewer(const std::string& headers) const {
       "Connection: Upgrade\r\nUpgrade: "
       "websocket\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nSec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n");
-  // Byte by byte: what follows the header is the server's first messages.
+  // Reads byte by byte, because the server's first messages follow the header.
   std::string header;
   while (!header.ends_with("\r\n\r\n")) {
     const std::string byte = read_some(socket_.get(), 5.0, 1);

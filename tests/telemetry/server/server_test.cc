@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What strainwave-telemetry shows of what is said on LCM.
+// What strainwave-telemetry publishes of the messages on LCM.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -134,21 +134,21 @@ TEST_F(Server, IsNotForPagesThatABrowserHappensToVisit) {
   EXPECT_EQ(answer("Host: evil.example\r\n"), "HTTP/1.1 403");
 }
 
-/// strainwave-telemetry with an operator's key, and what it orders the joint "elbow".
+/// strainwave-telemetry with an operator's key, and its orders to the joint "elbow".
 class ActingServer : public Server {
  protected:
   ActingServer() {
     write_new_key(key_, Role::kOperator, "bench");
     lcm_.subscribe("SW.elbow.COMMAND", &ActingServer::on_command, this);
   }
-  /// What a viewer with these headers is answered when it asks for a stop.
+  /// Returns the answer to a stop request of a viewer with these headers.
   std::string stop_by(const RunningTelemetry& telemetry, const std::string& headers) const {
     const RawClient viewer(telemetry.port());
     if (!viewer.become_viewer(headers)) return "no viewer";
     viewer.send_text(R"({"op":"act","action":"stop"})");
     return viewer.read_until("\"acted\",\"refused\"");
   }
-  /// True: the joint "elbow" has been heard.
+  /// Publishes a state of the joint "elbow". Returns whether the server shows it.
   bool show_elbow(const RunningTelemetry& telemetry) {
     const state_v1 state{};
     return comes_true([&] {

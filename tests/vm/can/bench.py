@@ -31,7 +31,7 @@ following_error_rad = 0.2
 torque_limit_Nm = 34
 '''
 
-# What the motor of the catalogue's joint leaves at 75 V, as the simulated drives have it.
+# The motor limits of the catalogue's joint at 75 V, as in the simulated drives.
 CIA402 = '''
 [joint.can]
 bus = "arm"
@@ -94,7 +94,7 @@ def wait_until(condition, timeout_s, what):
     while not condition():
         if time.monotonic() > end:
             raise AssertionError(f'not within {timeout_s} s: {what}')
-        # The longer it takes, the less often it is looked at: an interpreter that wakes up is dear in a virtual machine.
+        # Polls less often the longer it waits, because waking up the interpreter is expensive in a virtual machine.
         time.sleep(pause_s)
         pause_s = min(1.3 * pause_s, 0.05)
 
@@ -109,32 +109,32 @@ def remove_bus(name=BUS):
 
 
 class Drive:
-    """A simulated drive in a process of its own, and its record."""
+    """A simulated drive in its own process, and its log."""
 
     def __init__(self, node_id=3, program='./strainwave-can-sim', options=(), bus=BUS):
         self.path = pathlib.Path(f'drive{node_id}.log')
         self.control = f'/tmp/drive{node_id}'
         self.log = open(self.path, 'w')
-        # Above the test's own processes: a drive has a processor of its own.
+        # The priority is above the test's own processes, because a real drive has its own processor.
         self.process = subprocess.Popen(
             ['chrt', '-f', '50', program, bus, '--node-id', str(node_id), '--control', self.control, *options],
             stdin=subprocess.DEVNULL, stdout=self.log)
         wait_until(lambda: os.path.exists(self.control), 2, 'the drive runs')
 
     def tell(self, line):
-        """Gives a command and returns when it was given."""
+        """Sends a command and returns its time in microseconds."""
         at_us = now_us()
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
             sender.sendto((line + '\n').encode(), self.control)
         return at_us
 
     def events(self, since_us=0):
-        """(utime, text) of every line since."""
+        """Returns (utime, text) of every line since that time."""
         lines = (line.split(' ', 1) for line in self.path.read_text().splitlines())
         return [(int(utime), text) for utime, text in lines if int(utime) >= since_us]
 
     def find(self, beginning, since_us=0):
-        """utime of the first event that begins so, or None."""
+        """Returns the utime of the first event with this beginning, or None."""
         return next((utime for utime, text in self.events(since_us) if text.startswith(beginning)), None)
 
     def wait_for(self, beginning, since_us=0, timeout_s=3.0):
@@ -190,7 +190,7 @@ def make_key():
 
 
 def ctl(*arguments, timeout_s=3):
-    """Runs strainwavectl; returns its exit status and what it said."""
+    """Runs strainwavectl and returns its exit status and output."""
     done = subprocess.run(['./strainwavectl', '--key', 'key', '--timeout_s', str(timeout_s), *arguments],
                           capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
@@ -219,7 +219,7 @@ class Daemon:
             self.wait_for(wait_for)
 
     def wait_for(self, joint):
-        # Who asks before it listens waits for the whole time-out.
+        # A client that asks before the daemon listens waits for the whole time-out.
         wait_until(lambda: self.process.poll() is not None or ', session ' in self.text(), 10, 'the daemon runs')
         wait_until(lambda: self.process.poll() is not None or ctl('status', joint, timeout_s=0.5)[0] == 0, 10,
                    'the daemon answers')
@@ -229,13 +229,13 @@ class Daemon:
         return self.log_path.read_text()
 
     def hurry_gateway(self):
-        """Puts the gateway above everything but loop and drives, so that no state is lost however many are published."""
+        """Gives the gateway the highest priority after loop and drives, so that no state is lost at high rates."""
         gateway = subprocess.check_output(['pgrep', '-P', str(self.process.pid)], text=True).split()
         for process in gateway:
             subprocess.run(['chrt', '-a', '-f', '-p', '30', process], check=True)
 
     def refusal(self, timeout_s=15):
-        """Its message when it must not start."""
+        """Returns the log of a daemon that must refuse to start."""
         status = self.process.wait(timeout_s)
         assert status != 0, 'the daemon ended in order, but was to refuse'
         return self.text()
@@ -252,7 +252,7 @@ class Daemon:
 
 
 class Recording:
-    """strainwavectl record of the joints, from here on."""
+    """Starts strainwavectl record for the joints."""
 
     def __init__(self, *joints, name='record'):
         self.path = pathlib.Path(f'{name}.lcm')
@@ -270,7 +270,7 @@ class Recording:
 
 
 def first_fault(rows, since_us):
-    """(utime, fault) of the first state with a fault after this instant, or None."""
+    """Returns (utime, fault) of the first state with a fault after this instant, or None."""
     for row in rows:
         if int(row['utime']) >= since_us and int(row['fault']) != 0:
             return int(row['utime']), int(row['fault'])
@@ -278,7 +278,7 @@ def first_fault(rows, since_us):
 
 
 def show_and_exit(tests):
-    """Runs unittest cases; on failure shows every log, for the guest is gone afterwards."""
+    """Runs unittest cases. Shows every log after a failure, because the guest does not survive the test."""
     import unittest
     suite = unittest.defaultTestLoader.loadTestsFromTestCase
     result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout, failfast=FAIL_FAST).run(

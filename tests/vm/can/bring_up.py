@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One joint: start-up, staircase, shut-down; what goes over the bus at start-up is the golden file's."""
+"""One joint: start-up, staircase, shut-down. The frames at start-up must match the golden file."""
 import difflib
 import pathlib
 import subprocess
@@ -39,7 +39,7 @@ class BringUp(unittest.TestCase):
         wait_until(lambda: drive.report()['power'] != 'OperationEnabled', 1, 'the drive is disabled')
         self.assertEqual(float(drive.report()['torque_Nm']), 0.0)
         self.assertEqual(daemon.end(), 0, daemon.text())
-        # A daemon that ended in order is no lost master.
+        # The orderly end of the daemon must not look like a lost master.
         time.sleep(0.5)
         self.assertIsNone(drive.find('heartbeat-lost'))
         self.assertIsNone(drive.find('emcy'))
@@ -50,7 +50,7 @@ class BringUp(unittest.TestCase):
             with self.subTest(modes):
                 drive = Drive(options=['--modes', modes, '--initial-position_rad', '0.2'])
                 wait_until(lambda: drive.report()['nmt'] == 'pre-operational', 1, 'the drive has booted')
-                # Of 60FFh and 60B1h: counts a second.
+                # The unit of 60FFh and 60B1h is counts a second.
                 daemon = Daemon(daemon_toml([joint_toml(
                     can=f'drive_mode = "{drive_mode}"\nvelocity_rad_s_per_unit = 1.9634954e-5')]), name=modes)
                 must('enable', JOINT)
@@ -65,10 +65,10 @@ class BringUp(unittest.TestCase):
                 drive.end()
 
     def check_start_up(self, lines):
-        """Up to the start of the network, without heartbeats: they come when their time comes."""
+        """Compares the frames up to the start of the network. Leaves out heartbeats, because their instants vary."""
         frames = [' '.join(line.split()[1:]) for line in lines]
         frames = [frame for frame in frames if not (frame.startswith('7') and not frame.endswith('[1] 00'))]
-        # How often 6061h is asked before it follows 6060h depends on the drive alone: the last time counts.
+        # How often 6061h is polled until it follows 6060h depends on the drive alone, so only the last poll is compared.
         asked = [i for i, frame in enumerate(frames) if frame.startswith('603 [8] 40 61 60 00')]
         for i in reversed(asked[:-1]):
             del frames[i:i + 2]

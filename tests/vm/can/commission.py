@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""strainwaved --commission with a drive on a bus: it moves the joint in real time, measures its friction, and a key brakes and disables. Without
-the fit: the joint behind the simulated drive has no spring."""
+"""strainwaved --commission with a drive on a bus. It moves the joint in real time and measures its friction, and a key brakes and disables.
+The test leaves out the fit, because the simulated joint has no spring."""
 import json
 import math
 import os
@@ -16,7 +16,7 @@ INTERRUPTED = 130
 
 
 def flexible_toml():
-    """With the spring of its gear, slowly, without its inertias and a gain table."""
+    """A configuration with the spring of the gear and a low speed, without inertia and gain table."""
     text = joint_toml(section=CIA402, can='encoder_side = "motor"')
     for before, after in (
             ('model = "rigid"\ninertia_kgm2 = 0.089\n', 'model = "flexible"\ngear = "csf-17-50"\n'),
@@ -28,7 +28,7 @@ def flexible_toml():
 
 
 def friction_Nm(speed_rad_s, temperature_C):
-    """Of the joint behind the simulated drive, above the Stribeck curve: docs/theory.md, section 3."""
+    """Friction of the simulated joint at speeds above the Stribeck curve: docs/theory.md, section 3."""
     cold = math.exp(-(temperature_C + 12.803) / 11.28)
     ratio = 50
     motor_rpm = ratio * speed_rad_s * 60 / (2 * math.pi)
@@ -36,7 +36,7 @@ def friction_Nm(speed_rad_s, temperature_C):
 
 
 class Commissioning:
-    """A run in a terminal; its lines are in FOLDER.log."""
+    """A run in a terminal, with its output in FOLDER.log."""
 
     def __init__(self, folder):
         pathlib.Path('joint.toml').write_text(flexible_toml())
@@ -64,7 +64,7 @@ class Commission(unittest.TestCase):
         run = Commissioning('interrupted')
         wait_until(lambda: '\nmotion: ' in run.lines() or run.process.poll() is not None, 240, 'the shaken strokes have begun')
         time.sleep(1)
-        os.write(run.keyboard, b'\x13')  # Ctrl-S, as good as any
+        os.write(run.keyboard, b'\x13')  # Ctrl-S works as well as any other key
         self.assertEqual(run.process.wait(20), INTERRUPTED, run.lines())
         self.assertNotEqual(drive.report()['power'], 'OperationEnabled')
         self.assertEqual(float(drive.report()['torque_Nm']), 0.0)

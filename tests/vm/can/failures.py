@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Everything that can go wrong with a drive and its bus, provoked: what the daemon does, what the drive does, and when. The way
-back is always the same: an operator clears the fault, and enables."""
+"""Provokes every failure of a drive and its bus, and checks the reactions of daemon and drive and their times. The way
+back is always the same: an operator clears the fault and enables."""
 import subprocess
 import time
 import unittest
@@ -8,7 +8,7 @@ import unittest
 from bench import (BUS, FAULTS, JOINT, MODES, Daemon, Drive, Recording, ctl, daemon_toml, first_fault, joint_state,
                    joint_toml, make_bus, must, now_us, remove_bus, show_and_exit, wait_until)
 
-# Of the configuration's defaults, in microseconds.
+# Defaults of the configuration, in microseconds or periods.
 PERIOD_US = 1000
 STATE_US = 5000
 ZERO_TORQUE_AFTER = 2
@@ -20,7 +20,7 @@ POSITION_LATE = 1024
 
 
 def start_moving(drive):
-    """From 0 on, with torque at every instant that follows."""
+    """Starts a move from 0 that needs torque all the time."""
     must('enable', JOINT)
     must('move', JOINT, '3.0')
     wait_until(lambda: float(drive.report()['velocity_rad_s']) > 2.0, 2, 'the joint moves')
@@ -41,19 +41,19 @@ class Failures(unittest.TestCase):
         remove_bus()
 
     def expect_fault(self, since_us, names, within_us):
-        """The daemon's fault, by its name or one of several, its time in the states, and its line in the log."""
+        """Checks the fault of the daemon, which must have one of these names, and its time in the states."""
         time.sleep(0.3)
         rows = self.recording.end()
         fault = first_fault(rows, since_us)
         self.assertIsNotNone(fault, 'no fault at all')
         names = (names,) if isinstance(names, str) else names
         self.assertIn(fault[1], [FAULTS[name] for name in names], self.daemon.text()[-400:])
-        # The states are samples: the fault itself came up to one of their periods earlier.
+        # States are samples, so the fault came up to one state period earlier.
         self.assertLessEqual(fault[0] - since_us, within_us + STATE_US)
         self.assertEqual(joint_state()['mode'], MODES['faulted'])
 
     def expect_rest(self, since_us, within_us):
-        """The drive itself: without power, standing still, no torque."""
+        """Checks that the drive has no power and no torque, and stands still."""
         at_rest_us = self.drive.wait_for('at-rest', since_us)
         self.assertLessEqual(at_rest_us - since_us, within_us)
         report = self.drive.report()
@@ -62,14 +62,14 @@ class Failures(unittest.TestCase):
         self.assertEqual(float(report['velocity_rad_s']), 0.0)
 
     def expect_way_back(self):
-        """Only through an operator: enabling alone is refused."""
+        """Checks that only an operator can recover: enabling alone is refused."""
         self.assertNotEqual(ctl('enable', JOINT)[0], 0)
         time.sleep(0.05)
         self.assertNotEqual(self.drive.report()['power'], 'OperationEnabled')
         must('clear-fault', JOINT)
-        time.sleep(0.25)  # a drive that restarted is set up again
+        time.sleep(0.25)  # the daemon sets up a restarted drive again
         must('enable', JOINT)
-        # As little as shows that it obeys.
+        # A small move shows that the drive obeys.
         must('move', JOINT, str(float(self.drive.report()['position_rad']) - 0.05), '--wait')
         must('disable', JOINT)
 
@@ -103,10 +103,10 @@ class Failures(unittest.TestCase):
         at_us = self.drive.tell('skip-tpdo 200')
         self.expect_fault(at_us, 'read failed', (QUICK_STOP_AFTER + 3) * PERIOD_US)
         zero_us = self.drive.find('torque zero', at_us)
-        # One period is the command's way into the drive and the SYNC's.
+        # One period passes until the drive has the command and a SYNC applies it.
         self.assertLessEqual(zero_us - at_us, (ZERO_TORQUE_AFTER + 3) * PERIOD_US)
         self.assertGreaterEqual(zero_us - at_us, ZERO_TORQUE_AFTER * PERIOD_US)
-        # By SDO: whether it takes process data, nobody knows.
+        # The stop goes by SDO, because the daemon does not know whether the drive takes process data.
         off_us = self.drive.find('power SwitchOnDisabled', at_us)
         self.assertLessEqual(off_us - at_us, (QUICK_STOP_AFTER + 4) * PERIOD_US)
         self.drive.tell('note-torque off')
@@ -155,9 +155,9 @@ class Failures(unittest.TestCase):
         self.drive.tell('note-torque on')
         at_us = now_us()
         subprocess.run(['cansend', BUS, '000#8003'], check=True)
-        # Its next heartbeat, which may come first, says why.
+        # The drive's next heartbeat, which may come first, reports the state.
         self.expect_fault(at_us, ('read failed', 'drive restarted'), (QUICK_STOP_AFTER + 3) * PERIOD_US + STATE_US)
-        # By SDO, which a pre-operational drive still obeys.
+        # A pre-operational drive still obeys an SDO.
         off_us = self.drive.find('power SwitchOnDisabled', at_us)
         self.assertIsNotNone(off_us)
         self.assertLessEqual(off_us - at_us, (QUICK_STOP_AFTER + 6) * PERIOD_US)
@@ -186,7 +186,7 @@ class Failures(unittest.TestCase):
 
 
 class LatePositions(unittest.TestCase):
-    """TPDO1 comes later than it did at the start, each time."""
+    """TPDO1 becomes later than it was at the start."""
 
     def setUp(self):
         make_bus()
@@ -198,7 +198,7 @@ class LatePositions(unittest.TestCase):
         remove_bus()
 
     def rows_with_lateness(self, late_us, delay_periods):
-        """The states from a tenth of a second after the lateness began. The gap before the first late one is no fault here."""
+        """Returns the states from 0.1 s after the lateness began. The gap before the first late TPDO1 is no fault here."""
         name = self.id().split('.')[-1]
         can = f'delay_periods = {delay_periods}\nquick_stop_after = 20\n[joint.supervision]\nmissed_readings_limit = 20'
         self.daemon = Daemon(daemon_toml([joint_toml(can=can)]), name=name)
@@ -221,7 +221,7 @@ class LatePositions(unittest.TestCase):
         self.expect_fault(self.rows_with_lateness(1400, 1))
 
     def test_10_4_ms_are_a_fault_whatever_it_allows_for(self):
-        self.expect_fault(self.rows_with_lateness(10400, 2))  # the table bears no more
+        self.expect_fault(self.rows_with_lateness(10400, 2))  # the table allows no longer delay
 
     def expect_fault(self, rows):
         self.assertTrue(all(int(row['fault']) == FAULTS['read failed'] for row in rows))
@@ -247,11 +247,11 @@ class EndAndBeginning(unittest.TestCase):
         lost_us = drive.wait_for('heartbeat-lost', killed_us)
         self.assertLessEqual(lost_us - killed_us, MASTER_TIMEOUT_US)
         self.assertGreaterEqual(lost_us - killed_us, MASTER_TIMEOUT_US - HEARTBEAT_US - PERIOD_US)
-        # The deadline of RPDO1 is shorter than the heartbeat's.
+        # The deadline of RPDO1 is shorter than the time-out of the heartbeat.
         self.assertLessEqual(drive.wait_for('power QuickStopActive', killed_us) - lost_us, PERIOD_US)
         at_rest_us = drive.wait_for('at-rest', killed_us)
         self.assertLessEqual(at_rest_us - lost_us, 200000)
-        drive.wait_for('power SwitchOnDisabled', killed_us)  # a period after it came to rest
+        drive.wait_for('power SwitchOnDisabled', killed_us)  # one period after the joint came to rest
         report = drive.report()
         self.assertEqual((report['power'], float(report['torque_Nm'])), ('SwitchOnDisabled', 0.0))
 

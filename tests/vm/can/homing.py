@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A joint whose encoder forgets its position, homed on the bus by the encoder's index: the drive latches it with touch probe 1. And
-what becomes of a search whose index never comes, and of the position when the drive restarts."""
+"""A joint with an incremental encoder is homed on the bus by the encoder's index, which touch probe 1 of the drive latches.
+Also tests a search whose index never comes, and the position after a restart of the drive."""
 import math
 import time
 import unittest
@@ -10,7 +10,7 @@ from bench import (JOINT, MODES, Daemon, Drive, ctl, daemon_toml, joint_state, j
 
 HOMING_FAILED = 19
 NOT_HOMED = 64
-INDEX_RAD = 2 * math.pi / 50    # where the drive's next index is: one comes in each turn of the motor, one of them is at 0
+INDEX_RAD = 2 * math.pi / 50    # the drive's next index: one comes in each turn of the motor, one of them is at 0
 STARTS_AT_RAD = 0.05
 HOME_RAD = 0.5
 TRAVEL_RAD = 0.3
@@ -51,7 +51,7 @@ class IndexHoming(unittest.TestCase):
         must('home', JOINT, timeout_s=20)
         self.assertEqual(joint_state()['mode'], MODES['holding'])
         self.assertTrue(self.homed())
-        time.sleep(0.5)    # so that state and report are of one place
+        time.sleep(0.5)    # waits until state and report show the same position
 
     def expect_no_position(self):
         self.assertFalse(self.homed())
@@ -63,7 +63,7 @@ class IndexHoming(unittest.TestCase):
         must('enable', JOINT)
         self.expect_no_position()
         self.home()
-        # However far the joint went on, and however late TPDO3 told: the place is the drive's.
+        # The latched position must not depend on how far the joint moved on or how late TPDO3 came.
         self.assertAlmostEqual(joint_state()['joint_position_rad'] - HOME_RAD, self.true_rad() - INDEX_RAD,
                                delta=2 * COUNT_RAD)
         must('move', JOINT, '0.6', '--wait')
@@ -75,13 +75,13 @@ class IndexHoming(unittest.TestCase):
         time.sleep(0.5)
         must('enable', JOINT)
         self.expect_no_position()
-        # It stands beyond that index: the next one is a turn of the motor farther, and is where the first was said to be.
+        # The joint stands beyond that index. The next index is one motor turn farther and now gets the home position.
         self.home()
         self.assertAlmostEqual(joint_state()['joint_position_rad'] - HOME_RAD, self.true_rad() - 2 * INDEX_RAD,
                                delta=2 * COUNT_RAD)
 
     def test_an_index_that_never_comes_is_a_fault_and_no_motion_without_end(self):
-        self.drive.tell('pretend 0x60B9 0 1')    # armed, and nothing latched
+        self.drive.tell('pretend 0x60B9 0 1')    # the probe is armed but latches nothing
         must('enable', JOINT)
         status, text = ctl('home', JOINT, timeout_s=20)
         self.assertNotEqual(status, 0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Our CANopen client against a node made of packages written by others (npm: canopen, socketcan): can-scan reads it, start-up
-configures its PDOs, it is enabled over them, tells of an emergency, restarts, and answers late and wrongly."""
+"""Tests our CANopen client with a node made of third-party packages (npm: canopen, socketcan). can-scan reads it, and start-up
+configures its PDOs. The node is enabled over them, reports an emergency, restarts, and answers late and wrongly."""
 import pathlib
 import subprocess
 import sys
@@ -11,7 +11,7 @@ from bench import (BUS, FAULTS, JOINT, MODES, Daemon, ctl, daemon_toml, joint_st
                    remove_bus, show_and_exit, wait_until)
 
 
-# An interpreter does not answer every millisecond.
+# An interpreter cannot answer within every millisecond.
 SLOW = 'zero_torque_after = 100\nquick_stop_after = 1000\n'
 PATIENCE = '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
 PATIENT = joint_toml(can=SLOW) + PATIENCE
@@ -44,7 +44,7 @@ class Peer(unittest.TestCase):
         wait_until(lambda: f'told {line}' in self.log.read_text(), 5, 'the peer has heard it')
 
     def start_daemon(self, joint=PATIENT):
-        """It ends before the bus goes: one that outlives its bus faults, and says so in a log that then misleads."""
+        """Ends the daemon before the bus is removed. Otherwise it would fault, and its log would mislead."""
         daemon = Daemon(daemon_toml([joint]))
         self.addCleanup(daemon.kill)
         return daemon
@@ -67,7 +67,7 @@ class Peer(unittest.TestCase):
         status, text = self.check()
         self.assertEqual(status, 0, text)
         self.assertIn('start-up would accept every drive', text)
-        # It went through the peer's own states, and came back.
+        # The peer has passed its own states and is pre-operational again.
         self.assertEqual([line for line in self.log.read_text().splitlines() if line.startswith('nmt')][-2:],
                          ['nmt 5', 'nmt 127'])
         self.tell('late 100')
@@ -109,7 +109,7 @@ class Peer(unittest.TestCase):
         time.sleep(0.5)
         self.assertEqual(joint_state()['mode'], MODES['holding'], daemon.text())
         self.assertNotIn('were not sent', daemon.text())
-        # An emergency is a fault with its code.
+        # An emergency is a fault with its error code.
         self.tell('emcy 0x2310')
         self.assertEqual(self.wait_for_fault(), FAULTS['drive fault'])
         self.assertEqual(joint_state()['drive_error'] & 0xFFFF, 0x2310, daemon.text())
@@ -117,7 +117,7 @@ class Peer(unittest.TestCase):
         self.tell('emcy 0')
         must('clear-fault', JOINT)
         self.enable()
-        # So is a restart, and clearing sets it up anew.
+        # A restart is a fault too, and clearing it sets the peer up anew.
         self.stop_peer()
         self.wait_for_fault()
         self.start_peer()

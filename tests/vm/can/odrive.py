@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A joint with an ODrive: start-up, motion, and what can go wrong with it; with SIGKILL its watchdog is all that is left."""
+"""A joint with an ODrive: start-up, motion and failures. After a SIGKILL of the daemon only the drive's watchdog remains."""
 import time
 import unittest
 
@@ -11,7 +11,7 @@ WATCHDOG_US = 100000
 PERIOD_US = 1000
 STATE_US = 5000
 FAULT_AFTER = 10
-WAKE_US = 200  # of a process that waits for an instant
+WAKE_US = 200  # latency of a process that waits for an instant
 OPTIONS = ['--encoder_ms', '1', '--torques_ms', '1', '--temperature_ms', '100', '--heartbeat_ms', '20', '--watchdog_s', '0.1',
            '--input-vel-scale', '500']
 
@@ -55,7 +55,7 @@ class Odrive(unittest.TestCase):
         must('enable', JOINT)
         for setpoint_rad in (0.01, 0.1, 1.0):
             must('move', JOINT, str(setpoint_rad), '--wait')
-            # The plan is at its end; the law without landing comes closer by its integral.
+            # The trajectory has ended. The control law comes closer by its integral action.
             time.sleep(0.5)
             self.assertAlmostEqual(float(self.drive.report()['position_rad']), setpoint_rad, delta=3e-4)
         must('disable', JOINT)
@@ -64,7 +64,7 @@ class Odrive(unittest.TestCase):
         self.assertEqual(self.drive.report()['state'], '1')
 
     def move_by_its_own_loop(self, drive_mode):
-        # At 6 rad/s the motor makes 48 turns in a second, too many for thousandths in 16 bits.
+        # At 6 rad/s the motor makes 48 turns a second, too many for thousandths in 16 bits.
         daemon = self.start(f'drive_mode = "{drive_mode}"\ninput_vel_scale = 500')
         must('enable', JOINT)
         self.assertAlmostEqual(float(self.drive.report()['position_rad']), 0.0, delta=3e-4)
@@ -104,7 +104,7 @@ class Odrive(unittest.TestCase):
         recording = Recording()
         start_moving(self.drive)
         at_us = self.drive.tell('cut')
-        # What it was told before it obeyed is what it counts from: the last torque frame came up to a period before.
+        # The watchdog counts from the last torque frame before the cut, which came up to a period earlier.
         cut_us = self.drive.wait_for('told cut', at_us)
         expired_us = self.drive.wait_for('error 01000000', at_us)
         self.assertLessEqual(expired_us - cut_us, WATCHDOG_US + WAKE_US)

@@ -1,4 +1,4 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs a test that is written in Python: python.sh NAME.py
+# Runs a test in Python: python.sh NAME.py
 exec python3 -B "$1"

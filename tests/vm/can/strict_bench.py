@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bench with a drive that shares no line with our own (strict_node.py)."""
+"""A bench with an independent simulated drive (strict_node.py)."""
 import os
 import pathlib
 import subprocess
@@ -7,7 +7,7 @@ import unittest
 
 from bench import (BUS, JOINT, MODES, Daemon, daemon_toml, joint_state, joint_toml, make_bus, must, remove_bus, wait_until)
 
-# An interpreter does not answer every millisecond.
+# An interpreter cannot answer within every millisecond.
 PATIENT = 'zero_torque_after = 100\nquick_stop_after = 1000\n'
 SUPERVISION = '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
 

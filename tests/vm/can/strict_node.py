@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A CiA 402 servo drive that shares no line with ours: a CANopen node from the standards' text (CiA 301, CiA 402-2), stricter than most.
-PDO parameters may change only while the PDO is not valid, and mappings only while their count is 0. Behind it turns one inertia with
-friction, which takes a new torque with each SYNC and waits for nobody.
+"""An independent CiA 402 servo drive: a CANopen node written from the standards' text (CiA 301, CiA 402-2), stricter than most.
+PDO parameters may change only while the PDO is not valid, and mappings only while their count is 0. The drive turns one inertia with
+friction, which takes a new torque with each SYNC in real time.
 
     strict_node.py INTERFACE NODE-ID [--vendor N] [--boot-after S] [--sdo-delay S] [--tpdo-delay S] [--late S] [--torque-lag N]
                    [--log FILE] [--track FILE]
 
-Logs, each with its utime, what somebody does to it: NMT commands, SDO reads and writes, states. TRACK gets utime and position of each SYNC.
-A torque acts --torque-lag SYNCs after the one that it came before. SIGUSR1: it restarts. SIGUSR2: from here on TPDO1 comes so --late.
+Logs NMT commands, SDO reads and writes, and states, each with its utime. TRACK gets utime and position of each SYNC.
+A torque acts --torque-lag SYNCs after the SYNC that follows it. SIGUSR1: restarts. SIGUSR2: delays TPDO1 by --late.
 """
 import argparse
 import heapq
@@ -30,7 +30,7 @@ RATED_Nm = 0.192 * 50  # 6076h, at the joint
 
 
 class Joint:
-    """An inertia that sticks until its static friction is overcome; Stribeck's curve and viscous friction from there on."""
+    """An inertia that sticks until the torque exceeds its static friction. Then the Stribeck curve and viscous friction act."""
     INERTIA_kgm2, STATIC_Nm, COULOMB_Nm, VISCOUS_Nms_rad, STRIBECK_rad_s = 0.089, 1.6, 0.8, 0.3, 0.042
     STEP_s = 2e-4
 
@@ -49,7 +49,7 @@ class Joint:
             friction_Nm = math.copysign(curve_Nm, velocity_rad_s or torque_Nm) + self.VISCOUS_Nms_rad * velocity_rad_s
             after_rad_s = velocity_rad_s + (torque_Nm - friction_Nm) / self.INERTIA_kgm2 * step_s
             if velocity_rad_s * after_rad_s < 0:
-                after_rad_s = 0.0  # it stops before it turns round
+                after_rad_s = 0.0  # the joint stops before it reverses
             self.velocity_rad_s = after_rad_s
             self.position_rad += after_rad_s * step_s
 
@@ -90,11 +90,11 @@ class Node:
         self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
         self.socket.bind((options.interface,))
         self.joint = Joint()
-        self.torques_Nm = [0.0] * (options.torque_lag + 1)  # the first one acts
+        self.torques_Nm = [0.0] * (options.torque_lag + 1)  # the first one acts next
         self.synced_ns = 0
         self.tpdo_delay_s = options.tpdo_delay
         self.track_file = open(options.track, 'w', buffering=1) if options.track else None
-        self.waiting = []  # (when, number, what)
+        self.waiting = []  # (instant, number, message)
         self.count = 0
         signal.signal(signal.SIGUSR1, lambda *_: self.restart())
         signal.signal(signal.SIGUSR2, lambda *_: self.become_late())
@@ -150,7 +150,7 @@ class Node:
         if can_id == 0x80:
             self.move(time_ns)
         if self.state == 0:
-            return  # it has not booted: it hears nothing
+            return  # the node has not booted and hears nothing
         if can_id == 0 and len(data) == 2 and data[1] in (0, self.id):
             self.obey_network(data[0])
         elif can_id == 0x80 and self.state == 5:
@@ -172,7 +172,7 @@ class Node:
             if self.state != 5:
                 self.set_controlword(0)
 
-    # SDO, expedited; what is longer is not in the dictionary.
+    # SDO, expedited only: no object of the dictionary is longer.
     def serve(self, data):
         command, index, sub = struct.unpack_from('<BHB', data)
         abort = None
@@ -231,7 +231,7 @@ class Node:
                 self.set_controlword(value)
 
     def move(self, time_ns):
-        """The joint until this SYNC, and the torque from it on."""
+        """Advances the joint to this SYNC and takes the torque for the time after it."""
         if self.synced_ns:
             self.joint.advance(self.torques_Nm[0], (time_ns - self.synced_ns) / 1e9)
         self.synced_ns = time_ns

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Our driver against a drive that shares no line with our own (strict_node.py): a foreign one, one that answers slowly and one of two with
-one id stay untouched, one that boots slowly is waited for."""
+"""Our driver with an independent drive (strict_node.py). It leaves a foreign drive, a slow one and two drives with one id
+untouched, and it waits for a drive that boots slowly."""
 import signal
 import time
 

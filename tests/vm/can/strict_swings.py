@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How exactly a joint swings whose drive shares no line with our own (strict_node.py): on time, and with positions or torques late."""
+"""How exactly a joint with an independent drive (strict_node.py) swings: on time, and with late positions or torques."""
 import pathlib
 import signal
 import time
@@ -12,7 +12,7 @@ POSITION_LATE = 1024
 
 class StrictSwings(StrictBench):
     def swing(self):
-        """There and back: how far the joint itself came beyond its targets, and how far from them it held, in mrad."""
+        """Moves there and back. Returns the largest true overshoot beyond the targets and the largest true error while holding, in mrad."""
         beyond_mrad, off_mrad = 0.0, 0.0
         for target_rad, side in ((0.3, 1), (0.0, -1)):
             at_us = now_us()
@@ -27,7 +27,7 @@ class StrictSwings(StrictBench):
         return beyond_mrad, off_mrad
 
     def expect_exact_swings(self, notices, on_time=False, count=2):
-        # Pushes that are not answered until they are over may go a milliradian too far; the next one comes back.
+        # With a delay, a torque pulse is over before its effect shows. The joint may overshoot by a milliradian, and the next pulse returns it.
         for number in range(count):
             beyond_mrad, off_mrad = self.swing()
             state = joint_state()

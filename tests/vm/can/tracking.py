@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a joint over CAN reaches: as much as the simulated driver with the same delay."""
+"""A joint over CAN must track as well as the simulated driver with the same delay."""
 import time
 import unittest
 
@@ -7,7 +7,7 @@ from bench import (JOINT, Daemon, Drive, Recording, daemon_toml, joint_state, jo
                    show_and_exit, wait_until)
 
 AMBIENT = 'constant:15'
-# The staircase of docs/theory.md: from 0.1 rad up by twice that every second, five times.
+# The staircase of docs/theory.md: it starts at 0.1 rad and rises by 0.2 rad every second, to five stairs.
 STAIRS_rad = (0.1, 0.3, 0.5, 0.7, 0.9)
 STAIR_S = 1.0
 SIMULATED = f'''
@@ -18,7 +18,7 @@ temperature_noise_C = 0.0
 
 
 def pi2(rows):
-    """Sum of |e / r| over one second of each stair, with the position as the daemon knows it; and the stairs it found."""
+    """Sum of |e / r| over one second of each stair, with the position that the daemon measures, and the number of stairs."""
     total, stairs = 0.0, 0
     for setpoint_rad in STAIRS_rad:
         stair = [row for row in rows if abs(float(row['target_position_rad']) - setpoint_rad) < 1e-9]
@@ -35,7 +35,7 @@ class Tracking(unittest.TestCase):
         daemon = Daemon(daemon_toml([joint], state_rate_Hz=1000), name=name)
         daemon.hurry_gateway()
         must('enable', JOINT)
-        # The temperature must have been good for two seconds before the table's gains are used.
+        # The daemon uses the gains of the table only after two seconds of valid temperature.
         time.sleep(2.5)
         recording = Recording(name=name)
         time.sleep(0.1)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# For the scripts of this folder: a board of simulated lines and files, and what they check it with. Sourced.
+# Shared by the scripts of this folder, which source it: a board of simulated lines and files, and the checks.
 set -euo pipefail
 chmod +x ./* 2>/dev/null || true
 
 LINES_FOLDER=$PWD/lines
 TREE=$PWD/tree
 failed=0
-tell_why() { # what helps when a script fails, wherever it does
+tell_why() { # shows the logs when a script fails anywhere
   local status=$?
   if [ $status -ne 0 ]; then tail -n 40 daemon.log ctl.log 2>/dev/null || true; fi
 }
@@ -21,8 +21,8 @@ check() { # check "what" command...
   fi
 }
 
-# Every line of the joint by its role's name, pulled as the wiring of docs/gpio.md wants it: outputs down, so that enable and
-# brake fall when nobody drives them; contacts by the board.
+# Makes every line of the joint under the name of its role, pulled as docs/gpio.md requires. Outputs are pulled down, so that enable and brake fall
+# when nothing drives them. The board drives the contacts.
 make_lines() {
   modprobe gpio-sim 2>/dev/null || true
   local chip=/sys/kernel/config/gpio-sim/board number=0 name
@@ -138,7 +138,7 @@ $(line_table index high)
 TOML
 }
 
-# Above the daemon's priority: mechanics wait for nobody.
+# The priority is above the daemon's, because real mechanics do not wait.
 start_plant() { # start_plant POSITION_RAD
   chrt -f 85 ./gpio_board plant "$LINES_FOLDER" "$TREE" "$1" &
   plant=$!

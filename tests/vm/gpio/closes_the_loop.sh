@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One joint from the first check of its wiring to its end, with the motor turning behind simulated lines and files.
+# One joint from the first check of its wiring to its shut-down, with a motor behind simulated lines and files.
 . ./board.sh
 make_lines
 make_tree
 make_configuration
 
-# Before anything runs: what gpio-check shows, and that it touches nothing.
+# Before any motion: the output of gpio-check, which must not touch the lines.
 check "gpio-check finds every line usable" ctl gpio-check gpio.toml
 check "gpio-check shows every line" test "$(./strainwavectl gpio-check gpio.toml | grep -c joint-board\\\|/dev/gpiochip)" -ge 10
 check "gpio-check tells an inactive input" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  home .*inactive"'
@@ -14,7 +14,7 @@ pull home pull-down
 check "gpio-check tells it from an active one" bash -c './strainwavectl gpio-check gpio.toml | grep "^  home " | grep -qv inactive'
 pull home pull-up
 
-# Errors before anything moves: a line that is held, a name that is none.
+# Errors before any motion: a line in use by another program, and an unknown name.
 gpioset --mode=signal joint-board 0=0 &
 holder=$!
 sleep 0.3
@@ -41,7 +41,7 @@ check "the amplifier is on" level_is enable 1
 check "the brake is open" level_is brake_release 1
 check "a move before homing is refused" refused move elbow 0.0
 check "homing" ctl home elbow
-sleep 0.3 # it comes to rest: state and truth are not of one moment
+sleep 0.3 # the joint comes to rest, because state and truth are sampled at different instants
 check "home is where it is" near "$(./strainwavectl status elbow --json | grep -o '"joint_position_rad": *[-0-9.e]*' | grep -o '[-0-9.e]*$')" "$(truth)" 0.0002
 check "a move" ctl move elbow -0.2 --wait
 check "arrives" near "$(truth)" -0.2 0.001
@@ -66,17 +66,17 @@ check "the amplifier's fault stops the joint" level_is enable 0
 check "and is told" status_has "drive fault"
 pull amplifier_fault pull-up
 ctl clear-fault elbow
-sleep 0.3 # without torque the joint coasts, and is enabled at rest only
+sleep 0.3 # the joint coasts without torque and can be enabled only at rest
 check "enable after it" ctl enable elbow
 sleep 0.2 # the brake opens under torque
 
-# Released and pressed while it moves: within a period all outputs are safe.
+# The emergency stop is pressed during a motion. Within a period all outputs must be safe.
 ctl move elbow -0.4
 sleep 0.15
 check "it moves" bash -c 'test "$(head -n1 tree/pwm/pwm0/duty_cycle)" != 0'
 reaction_ns=$(./gpio_board react "$LINES_FOLDER" "$TREE" estop)
 echo "e-stop to enable off and no torque: $reaction_ns ns of virtual time"
-# Read once a period, and a cycle takes a little: a tenth of a period is much for it.
+# The daemon reads the input once a period. A tenth of a period is a generous limit for a cycle's work.
 check "within one period and a cycle's work" test "$reaction_ns" -le 1100000
 check "the brake waits for its delay" level_is brake_release 1
 sleep 0.2
@@ -89,7 +89,7 @@ sleep 0.5
 check "releasing it moves nothing" near "$(truth)" "$position" 0.000001
 check "nor switches anything on" level_is enable 0
 ctl clear-fault elbow
-# Again, at other moments of the period.
+# Repeats this at other instants within the period.
 for pause in 0.0103 0.0205 0.0307 0.0409; do
   sleep 0.3
   ctl enable elbow

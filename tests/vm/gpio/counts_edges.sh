@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The fallback without a counter: no lost count in 60 s at the default cap nor in 4 s at the highest that may be configured, a
-# fault above. $1, $2: these caps in edges a second.
+# The fallback without a hardware counter loses no count in 60 s at the default cap, nor in 4 s at the highest configurable cap. Above a cap it
+# faults. $1, $2: these caps in edges a second.
 . ./board.sh
 make_lines
 default=$1
@@ -27,7 +27,7 @@ check "20 % above it: over-speed" test "$fault" = 3
 run "$highest" "$highest" 4
 check "4 s at the highest cap without a lost count" test "$counted" = "$true_count" -a "$fault" = 0
 check "at that rate" test "$came_about" -ge $((highest * 99 / 100)) -a "$true_count" = $((highest * 2))
-# Contacts that bounce ten times for half a millisecond at every edge, a hundred edges a second.
+# Contacts that bounce ten times within half a millisecond at every edge, at a hundred edges a second.
 run "$default" 100 4 10 0
 check "bounces are too many edges" test "$fault" = 3
 run "$default" 100 4 10 0.002

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A contact that bounces, with and without debounce_s: the amplifier's fault input, since a fault that was believed once is latched.
+# A bouncing contact, with and without debounce_s. The test uses the amplifier's fault input, because the daemon latches its fault.
 . ./board.sh
 make_lines
 make_tree

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A PWM chip's folder of sysfs that refuses what Linux 6.1 refuses, for machines whose kernel has no PWM: a file system over
+"""A fake sysfs folder of a PWM chip that refuses what Linux 6.1 refuses, for machines whose kernel has no PWM. It is a file system on
 /dev/fuse in plain Python.
 
   kernel_pwm.py FOLDER LOG [PERIOD_NS DUTY_NS ENABLE POLARITY]
 
-It is mounted on FOLDER until SIGTERM. Channel 0 is not exported, as after the start of the machine, or exported and as somebody left it. Every
-write comes to LOG: the file, the text, "taken" or "refused", and the channel's state after it.
+It is mounted on FOLDER until SIGTERM. Channel 0 is not exported, as after a boot, or exported with the given settings. It logs
+every write to LOG: the file, the text, "taken" or "refused", and the channel's state after it.
 
 Sources: pwm_apply_state in drivers/pwm/core.c of Linux 6.1, whatever the change: no period, or a duty above it, is EINVAL; every file of
 drivers/pwm/sysfs.c sets its one field of the state and applies all of it. Documentation/ABI/testing/sysfs-class-pwm: the polarity "can only be
@@ -20,7 +20,7 @@ import sys
 
 LOOKUP, FORGET, GETATTR, SETATTR, OPEN, READ, WRITE = 1, 2, 3, 4, 14, 15, 16
 RELEASE, FLUSH, INIT, OPENDIR, READDIR, RELEASEDIR, INTERRUPT, BATCH_FORGET = 18, 25, 26, 27, 28, 29, 36, 42
-DIRECT_IO = 1  # a file's size means nothing
+DIRECT_IO = 1  # the kernel ignores a file's size
 ROOT = 1
 FILES = ['export', 'npwm', 'pwm0/period', 'pwm0/duty_cycle', 'pwm0/enable', 'pwm0/polarity']
 NODES = {ROOT: '', 2: 'pwm0', **{3 + i: name for i, name in enumerate(FILES)}}
@@ -28,7 +28,7 @@ NUMBERS = {name: node for node, name in NODES.items()}
 
 
 class Refused(Exception):
-    """The kernel's answer is an error number."""
+    """The answer to the kernel is an error number."""
 
 
 class Channel:
@@ -75,7 +75,7 @@ def attributes(node):
 
 
 def answer(channel, log, operation, node, body):
-    """What the kernel asks of the file system, answered."""
+    """Answers a request of the kernel to the file system."""
     if operation == INIT:
         major, minor = struct.unpack_from('<2I', body)
         return struct.pack('<4I2H2I2HI7I', major, min(minor, 31), 4096, 0, 12, 10, 4096, 1, 1, 0, 0, *[0] * 7)
@@ -84,7 +84,7 @@ def answer(channel, log, operation, node, body):
         if not channel.visible(name):
             raise Refused(errno.ENOENT)
         return struct.pack('<4Q2I', NUMBERS[name], 0, 0, 0, 0, 0) + attributes(NUMBERS[name])
-    if operation in (GETATTR, SETATTR):  # sysfs ignores what cuts a file off
+    if operation in (GETATTR, SETATTR):  # sysfs ignores truncation
         return struct.pack('<Q2I', 0, 0, 0) + attributes(node)
     if operation in (OPEN, OPENDIR):
         return struct.pack('<Q2I', 0, DIRECT_IO if operation == OPEN else 0, 0)

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What the wires do when the daemon is killed in the middle of a motion, and why the pulls of docs/gpio.md must exist.
+# The state of the lines after the daemon is killed during a motion. It shows why docs/gpio.md requires pull resistors.
 . ./board.sh
 make_lines
 make_tree
@@ -36,7 +36,7 @@ check "and the amplifier off" level_is enable 0
 kill $daemon
 wait $daemon || true
 
-# The same board wired wrongly: a pull-up instead.
+# The same board with wrong wiring: pull-ups instead of pull-downs.
 pull enable pull-up
 pull brake_release pull-up
 move_and_kill

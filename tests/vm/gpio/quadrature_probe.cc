@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own
-// thread, as the daemon would, until standard input ends; then prints the count and the fault's number.
+// Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own thread, as the daemon does. When standard
+// input ends, it prints the count and the number of the fault.
 //
 //   quadrature_probe MAX_RATE_HZ DEBOUNCE_S
 #include <time.h>

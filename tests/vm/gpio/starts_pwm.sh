@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The daemon starts its PWM on a chip whose kernel refuses what Linux 6.1 refuses: fresh after the start of the machine, and as
-# somebody left it.
+# The daemon starts its PWM on a chip that refuses what Linux 6.1 refuses: a fresh channel after a boot, and a channel with settings left by another
+# program.
 . ./board.sh
 make_lines
 make_tree
@@ -15,7 +15,7 @@ mount_pwm() { # mount_pwm [PERIOD_NS DUTY_NS ENABLE POLARITY]
   return 1
 }
 unmount_pwm() { kill $pwm && wait $pwm; }
-# Of the daemon's writes: a state that is on (column 6) has no duty (column 5).
+# In the daemon's writes, a state that is on (column 6) must have no duty (column 5).
 never_drove() { awk '$6 == 1 && $5 != 0 { bad = 1; print "      " $0 } END { exit bad }' pwm.log; }
 shows() { test "$(cat "$PWM"/pwm0/{period,duty_cycle,enable,polarity} | paste -sd' ')" = "$1"; }
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The guest has what the tests build on: a real-time kernel, virtual time, vcan, gpio-sim, systemd, LCM's multicast route.
+# The guest has what the tests need: a real-time kernel, virtual time, vcan, gpio-sim, systemd, LCM's multicast route.
 set -euo pipefail
 failed=0
 must() {
@@ -41,7 +41,7 @@ gpio_round_trip() {
 must "simulated GPIO lines in both directions" gpio_round_trip
 
 virtual_time() {
-  # A second asleep costs next to no time of the host, and the guest's clock still sees it to the millisecond.
+  # A sleep of one second takes almost no host time, but the guest's clock advances by one second to the millisecond.
   local before after
   before=$(date +%s%N)
   sleep 1

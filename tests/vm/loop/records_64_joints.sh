@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# records_64_joints.sh SECONDS: what `strainwavectl record` gets of 64 joints at 200 Hz, in virtual time: every state of every cycle, and
-# the loop leaves out none. On a real machine bench/recording says the same of that machine.
+# records_64_joints.sh SECONDS: `strainwavectl record` must receive every state of 64 joints at 200 Hz in virtual time, and the loop must skip no
+# cycle. bench/recording does the same in real time on the current machine.
 set -euo pipefail
 seconds=$1
 mkdir bin bench
@@ -13,6 +13,6 @@ said=$(python3 bench/recording --bin bin --joints 64 --seconds "$seconds")
 echo "$said"
 [[ "$said" == *"0 not published, 0 datagrams lost before the recorder, 0 messages missing by its own count; the daemon left out 0 periods"* ]]
 [[ "$said" == *"the loop ran in real time"* ]]
-# All but those of the first and the last moments, when recorder and daemon do not begin and end in the same cycle.
+# Some states at both ends may be missing, because recorder and daemon do not start and end in the same cycle.
 states=$(sed -nE 's/^64 joints, ([0-9]+) states.*/\1/p' <<<"$said")
 ((states >= 64 * 200 * seconds - 128 && states <= 64 * 200 * seconds + 128))

@@ -1,7 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What the pages tell the operator of a machine with packages, command by command, as the pages have it. The machine
-# knows nothing of Strainwave before.
+# Runs the commands of the pages for an operator of a machine with packages, in the order of the pages. Strainwave is not installed at the beginning.
 . ./service.sh
 sudo() { "$@"; }
 export -f sudo
@@ -10,9 +9,9 @@ ip route delete 239.255.76.67/32 dev lo
 mkdir -p build/packages
 mv strainwave_*.deb build/packages/
 
-# The guest's console is no terminal to be asked at.
+# The guest's console is not an interactive terminal.
 follow() { bash ./"$1".sh </dev/null; }
-# page NAME: as its reader, with the service as the page before left it.
+# page NAME: follows the page as a reader does, with the service in the state that the page before left.
 page() {
   local start
   start=$(date +%s)

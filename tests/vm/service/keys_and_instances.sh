@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Keys that root alone may read reach the daemon as a credential; a second daemon beside the first; removal stops both.
+# Keys that only root may read reach the daemon as a credential. A second daemon runs next to the first. Removal stops both.
 . ./service.sh
 install_package
 config=/etc/strainwave/strainwaved.toml
@@ -37,7 +37,7 @@ echo 1 >${bank%/bank}/live
 udevadm settle
 chip=$(cat $bank/chip_name)
 must "the group may use GPIO chips" test "$(stat -c %G:%a "/dev/$chip")" = strainwave:660
-# As the unit has it: its user, its device list, its file systems.
+# Uses the sandbox of the unit: its user, its device list, its file systems.
 mapfile -t sandbox < <(grep -E '^(DevicePolicy|DeviceAllow|Protect|Private|ReadWritePaths|ProcSubset|Capability)' \
   /lib/systemd/system/strainwaved.service | sed 's/^/-p\n/')
 within() { systemd-run --quiet --wait --pipe -p User=strainwave "${sandbox[@]}" "$@"; }

@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# strainwave-telemetry as a service with an operator's key, by the commands of docs/telemetry.md: its page may order, and the unit is exposed no more.
+# strainwave-telemetry as a service with an operator's key, by the commands of docs/telemetry.md. Its page may order; the unit's exposure stays.
 . ./service.sh
 sudo() { "$@"; }
 export -f sudo
 install_package
 sed -i -e 's/^unsigned_orders = .*/unsigned_orders = "refuse"/' -e 's/^# authorized_keys = /authorized_keys = /' /etc/strainwave/strainwaved.toml
-# The lines of the page from the one that begins with $1 to the one that begins with $2.
+# Prints the lines of the page from the line that begins with $1 to the line that begins with $2.
 commands() { sed -n "\#^$1#,\#^$2#p" telemetry.md; }
 commands 'strainwavectl keygen' 'sudo systemctl restart strainwaved' >key.sh
 commands 'sudo install -m 600 ~/' 'sudo systemctl restart strainwave-telemetry' >unit.sh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One order as the page of strainwave-telemetry sends it: prints the answer, and ends with 0 when it is accepted.
+// Sends one order as the page of strainwave-telemetry does and prints the answer. Ends with 0 when it is accepted.
 //
 //   node page_order.mjs ADDRESS-WITH-TOKEN PREFIX.JOINT ACTION
 import http from 'node:http';
@@ -29,18 +29,18 @@ http.get({host: host.split(':')[0], port: host.split(':')[1], headers: {
   'Sec-WebSocket-Protocol': 'foxglove.websocket.v1',
 }}).on('upgrade', (response, socket, head) => {
   let waiting = head;
-  let parts = []; // of a message in several frames
+  let parts = []; // payloads of a message in several frames
   let isOpen = false;
   const send = (message) => {
     const body = Buffer.from(JSON.stringify(message));
     const size = body.length < 126 ? [0x80 | body.length] : [0x80 | 126, body.length >> 8, body.length & 255];
-    socket.write(Buffer.concat([Buffer.from([0x81, ...size, 0, 0, 0, 0]), body])); // a mask of zeros leaves the body as it is
+    socket.write(Buffer.concat([Buffer.from([0x81, ...size, 0, 0, 0, 0]), body])); // a mask of zeros leaves the body unchanged
   };
   const take = (kind, body) => {
     if (kind === 2) {
       if (!isOpen) return;
       const {session_id, challenge} = JSON.parse(body.subarray(13));
-      isOpen = false; // once
+      isOpen = false; // send the order only once
       return send({op: 'act', action, joint, session_id, challenge});
     }
     const message = JSON.parse(body);

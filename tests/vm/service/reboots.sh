@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A machine that starts again while its joint was held: the service is back by itself, the joint is not. Run after each start.
+# The machine reboots while its joint holds. The service starts again by itself, but the joint stays off. Runs after each boot.
 . ./service.sh
 
 if [ ! -e /var/lib/strainwave/before ]; then

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the tests of the installed service share; sourced by them.
+# Shared by the tests of the installed service, which source it.
 set -euo pipefail
 
 export PATH=$PATH:/usr/sbin:/sbin
@@ -20,7 +20,7 @@ must_not() {
   shift
   must "$what" bash -c '! "$@"' - "$@"
 }
-# Ends the test with its verdict; when it failed, with what the service logged.
+# Ends the test with its result, and after a failure with the service's log.
 finish() {
   if [ $failed -ne 0 ]; then journalctl -b --no-pager -o short-monotonic -u 'strainwave*' | tail -n 60; fi
   exit $failed
@@ -33,7 +33,7 @@ gateway() { pgrep -u strainwave-gateway; }
 # A field of the joint's state, such as "mode" (a number) or "session_id".
 state() { strainwavectl status elbow | awk -v field="$1" '$1 == field { print $2 }'; }
 is_state() { [ "$(state "$1")" = "$2" ]; }
-# wait_for SECONDS COMMAND...: until it succeeds.
+# wait_for SECONDS COMMAND...: repeats the command until it succeeds.
 wait_for() {
   local left=$(($1 * 10))
   shift
@@ -45,7 +45,7 @@ wait_for() {
 is_active() { systemctl -q is-active strainwaved; }
 restarted_since() { is_active && [ "$(core)" != "$1" ] && [ "$(core)" != 0 ]; }
 is_near() { awk -v a="$(state joint_position_rad)" -v b="$1" 'BEGIN { exit !((a - b) * (a - b) < 1e-8) }'; }
-# In three seconds nothing is commanded and nothing turns.
+# Checks for three seconds that the joint is off and has no torque, and that its position does not change.
 stays_off_and_still() {
   local begin
   begin=$(state joint_position_rad)
@@ -54,7 +54,7 @@ stays_off_and_still() {
     sleep 1
   done
 }
-# The joint is off; afterwards it holds at the position.
+# Enables the joint, which is off, moves it and waits until it holds at the position.
 move_to() {
   strainwavectl enable elbow && strainwavectl move elbow "$1" && wait_for 10 is_state mode 2 && wait_for 10 is_near "$1"
 }

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# strainwave-telemetry as a service: what it shows, what it may, who may look, and that the daemon does not mind.
-# The files are the page's own example (docs/telemetry.md).
+# strainwave-telemetry as a service: its output, its privileges, its access control, and that it does not disturb the daemon.
+# The configuration files are the examples of docs/telemetry.md.
 . ./service.sh
 sudo() { "$@"; }
 export -f sudo

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The installed service under systemd: what runs as whom, and what is left after its processes were killed or stopped.
+# The installed service under systemd: the users of its processes, and what remains after the processes are killed or stopped.
 . ./service.sh
 
 ip route delete 239.255.76.67/32 dev lo

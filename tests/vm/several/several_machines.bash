@@ -1,4 +1,4 @@
-# The network and the programs of docs/several-machines.md, as functions: two machines and a cable.
+# The network and the programs of docs/several-machines.md as functions: two machines and a cable.
 export PATH="$PATH:/usr/sbin:/sbin"
 lcm_url="udpm://239.255.76.67:7667?ttl=1"
 
@@ -18,7 +18,7 @@ make_network() {
   done
 }
 
-# A key for each machine, and one for the operator that both know.
+# Makes a key for each machine, and one for the operator, which both machines authorize.
 make_keys() {
   local key
   for key in operator arm leg; do
@@ -29,7 +29,7 @@ make_keys() {
   cat operator.key.pub leg.key.pub >leg.keys
 }
 
-# start_daemon MACHINE JOINT: its prefix is the machine's name.
+# start_daemon MACHINE JOINT: starts a daemon with the machine's name as its prefix.
 start_daemon() {
   sed -e "s/^prefix = .*/prefix = \"$1\"\nlcm_url = \"udpm:\/\/239.255.76.67:7667?ttl=1\"/" \
     -e "s/^unsigned_orders = .*/unsigned_orders = \"refuse\"\nauthorized_keys = \"$1.keys\"/" \
@@ -42,7 +42,7 @@ stop_daemons() {
   wait || true
 }
 
-# as WHOSE-KEY ARGUMENT...: strainwavectl; the operator sits at the arm's PC.
+# as KEY ARGUMENT...: runs strainwavectl with that key, as the operator does at the arm's PC.
 as() { in_machine arm ./strainwavectl --lcm-url "$lcm_url" --key "$1.key" --timeout_s 20 "${@:2}"; }
 ctl() { as operator "$@"; }
 unsigned() { in_machine arm ./strainwavectl --lcm-url "$lcm_url" --timeout_s 20 "$@"; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program of somebody else's: uses every header, links everything, and knows what fails without a daemon. Exit status 0: it did.
+// A user's program: it uses every header, links the whole library and checks the errors without a daemon. Exit status 0: success.
 #include <strainwave/path.h>
 #include <iostream>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts the states of a long MCAP recording with the reader of the format's inventors, chunk by chunk; prints one line of JSON:
-// how many joints and states, how many cycles are missing between the first and the last state of each joint, how often a joint's states
-// came out of order, and the daemon's own counts from its first to its last TIMING.
+// Counts the states of a long MCAP recording with the format's reference reader, chunk by chunk. Prints the numbers of joints and states, and the
+// missing cycles between the first and the last state of each joint. Then how often states came out of order, and the daemon's counts from its first
+// to its last TIMING. One line of JSON.
 //
 //   node count.mjs FILE
 import { openIndexed } from './mcap_file.mjs';
@@ -27,7 +27,7 @@ for await (const message of reader.readMessages()) {
   joint.last = cycle;
   joint.states += 1;
 }
-// A daemon publishes every so many cycles; the usual step is that number, and longer ones leave states out.
+// A daemon publishes every n-th cycle. The most frequent step is n, and longer steps mean missing states.
 let states = 0, missing = 0, backwards = 0;
 for (const joint of joints.values()) {
   const usual = [...joint.steps].reduce((most, entry) => (entry[1] > most[1] ? entry : most), [1, 0])[0];

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An MCAP file as the reader of the format's inventors wants it.
+// Opens an MCAP file for the format's reference reader.
 import { open } from 'node:fs/promises';
 import { McapIndexedReader } from '@mcap/core';
 import * as fzstd from 'fzstd';
 
 export const decompressHandlers = { zstd: (bytes, size) => fzstd.decompress(bytes, new Uint8Array(Number(size))) };
 
-// Chunk by chunk, as the file's index has them.
+// Reads chunk by chunk, in the order of the file's index.
 export async function openIndexed(file) {
   const handle = await open(file);
   const readable = {

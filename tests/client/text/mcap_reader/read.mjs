@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads an MCAP file with the reader of the format's inventors and prints what it found as one line of JSON.
+// Reads an MCAP file with the format's reference reader and prints its contents as one line of JSON.
 //
-//   node read.mjs FILE [--stream]     --stream: from the beginning, as far as whole chunks go (a file that was cut off)
+//   node read.mjs FILE [--stream]     --stream: from the beginning up to the last whole chunk (a truncated file)
 import { readFile } from 'node:fs/promises';
 import { McapStreamReader } from '@mcap/core';
 import { decompressHandlers, openIndexed } from './mcap_file.mjs';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Homing as a state machine, on a joint that goes exactly where it is told: no control law, no friction.
+// The state machine of homing, on an ideal joint without control law and friction, which goes exactly where it is ordered.
 #include "daemon/realtime/joint/homing.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr double kSpeed_rad_s = 0.05;
 constexpr double kDeceleration_rad_s2 = 5.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Obeys: goes at the speed ordered, stops with a deceleration.
+/// Moves at the ordered speed, and stops with a deceleration.
 class Walker {
  public:
   Walker(double position_rad, const SimulatedInputsConfig& inputs)
@@ -43,7 +43,7 @@ class Walker {
     const double step = kDeceleration_rad_s2 * kPeriod_s;
     velocity_rad_s_ += std::clamp(wanted_rad_s_ - velocity_rad_s_, -step, step);
     position_rad_ += velocity_rad_s_ * kPeriod_s;
-    // At its mechanical stop the joint stands, and the control law pushes harder and harder; elsewhere there is friction.
+    // At its mechanical stop the joint stands, and the control law pushes ever harder. Elsewhere there is friction.
     const bool pushes = position_rad_ <= stop_rad && wanted_rad_s_ < 0.0;
     if (pushes) position_rad_ = stop_rad;
     torque_Nm_ = pushes ? torque_Nm_ - kPush_Nm_s * kPeriod_s : std::copysign(friction_Nm, velocity_rad_s_);
@@ -130,11 +130,11 @@ TEST(Homing, FindsTheSamePlaceFromAnywhere) {
   HomingConfig then_index = config_to(HomingTarget::kHomeSwitch);
   then_index.then_index = true;
   SimulatedInputsConfig narrow = inputs();
-  narrow.home_to_rad = narrow.home_from_rad + 1e-4;  // the joint needs 2.5e-4 to turn round
+  narrow.home_to_rad = narrow.home_from_rad + 1e-4;  // the joint needs 2.5e-4 to reverse
   HomingConfig positive_limit = config_to(HomingTarget::kLimitSwitch);
   positive_limit.direction = 1.0;
   constexpr double kEdge_rad = 2.0 * kPerPeriod_rad;
-  constexpr double kPulse_rad = 1e-12;  // the pulse's place, not where the joint was seen after it
+  constexpr double kPulse_rad = 1e-12;  // the pulse's position, not the joint's next reading
   const struct {
     const char* what;
     HomingConfig config;

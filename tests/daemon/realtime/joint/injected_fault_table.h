@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every fault that can be injected and the reaction that docs/faults.md promises: the table that the tests of
-// the loop walk. The page is compared with it, so the promise and the test are one.
+// Every fault that can be injected, with the reaction that docs/faults.md promises. The tests of the loop use
+// this table, and another test compares the page with it.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace strainwave::testing {
 
-/// What the joint does when the fault begins.
+/// The joint's motion when the fault begins.
 enum class Doing { kHolding, kMoving, kHoldingThenMoving };
 
-/// What the loop makes of it.
+/// The loop's reaction.
 enum class Reaction {
   kFault,               ///< one of `faults` latches
-  kTemperatureUnknown,  ///< temperature_status says why; the joint goes on with the last that was known
+  kTemperatureUnknown,  ///< temperature_status says why; the joint continues with the last valid one
   kNone,                ///< tolerated
 };
 
@@ -37,7 +37,7 @@ inline void PrintTo(const InjectedFaultCase& entry, std::ostream* out) {
   *out << entry.name;
 }
 
-/// Limits of the joint on which the promises hold; docs/faults.md names them.
+/// Limits of the joint for which the promises hold; docs/faults.md names them.
 inline constexpr double kTableMaxAge_s = 1.0;
 
 inline const std::vector<InjectedFaultCase>& injected_fault_table() {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The real-time path allocates and frees nothing, whatever happens: commands, tables, faults, records.
-// Virtual time.
+// The real-time path allocates and frees nothing during commands, tables, faults and records. Virtual time.
 #include <gtest/gtest.h>
 
 #include "tests/support/allocation_trap.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint that runs into a wall, rigid and with a link on a spring: how hard it pushes, how soon it yields, and that it stays away.
+// A joint that runs into a wall, rigid or with a link on a spring: how hard it pushes, how soon it yields, and that it stays away.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ constexpr double kLoad_Nm = 12.0;
 constexpr double kNotice_Nm = 8.0;
 constexpr int kOverloadPeriods = 20;
 
-/// In periods since the wall is touched; -1: never.
+/// Times in periods since the first contact; -1: never.
 struct Blow {
   double peak_torque_Nm = 0.0;
-  int overloaded = -1;  ///< the wall pushes with more than the load that is allowed
+  int overloaded = -1;  ///< the wall pushes with more than the allowed load
   int noticed = -1;
-  int yielded = -1;  ///< the torque is what it yields with
+  int yielded = -1;  ///< the torque is that of a yielding joint
   int touches = 0;
-  double last_speed_rad_s = 0.0;  ///< the largest in the last half second
+  double last_speed_rad_s = 0.0;  ///< largest speed in the last half second
 };
 
 BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadStop stop) {
@@ -84,7 +84,7 @@ class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool
     };
     first(blow.overloaded, push_Nm > kLoad_Nm);
     first(blow.noticed, bench_->has_notice(0, Notice::kLoadHigh));
-    // No feedback has a part in the torque of a joint that yields, rests or is off.
+    // The torque of a joint that yields, rests or is off has no feedback.
     const bool yields = bench_->state(0).torque_feedback_Nm == 0.0;
     first(blow.yielded, blow.overloaded >= 0 && yields);
   }
@@ -92,7 +92,7 @@ class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool
   bool touching_ = false;
 };
 
-/// The estimate is so much later than the wall's push.
+/// The load estimate lags the wall's push by this time.
 constexpr int kShowsPeriods = 30;
 
 TEST_P(ContactWithAWall, SwitchesOffInTime) {
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, ContactWithAWall,
                                   (std::get<bool>(instance.param) ? "OnASpring" : "");
                          });
 
-// A tenth of a radian, its following_error_rad, is 17 ms of its way.
+// Its following_error_rad of a tenth of a radian takes 17 ms at this speed.
 TEST(Contact, AFastJointIsTooFarFromItsOrdersBeforeItsLoadHasLasted) {
   for (const OverloadStop stop : {OverloadStop::kTorqueOff, OverloadStop::kHoldLoad}) {
     JointBench bench({joint_before_a_wall(20000.0, false, stop)});
@@ -137,7 +137,7 @@ TEST(Contact, AFastJointIsTooFarFromItsOrdersBeforeItsLoadHasLasted) {
   }
 }
 
-// A load that lasts lets the joint go only while that is pushed away. Caught, it is pushed again at once.
+// A constant load moves the joint only while it yields. Once the joint holds again, the load pushes it again at once.
 TEST(Contact, ALoadThatIsBackAsSoonAsTheJointIsHeldIsAFaultOfTheLoad) {
   for (const bool flexible : {false, true})
     for (const double load_Nm : {14.0, 20.0, 28.0, 34.0}) {
@@ -145,7 +145,7 @@ TEST(Contact, ALoadThatIsBackAsSoonAsTheJointIsHeldIsAFaultOfTheLoad) {
       joint.drive.plant.effects.contact = {};
       JointBench bench({joint});
       bench.bring_to_hold(0, flexible ? flexible_table() : demo_table());
-      // As somebody leans on it: within 0.2 s.
+      // The load rises within 0.2 s, as when a person leans on the joint.
       for (int k = 0; k < 1500 && bench.fault(0) == Fault::kNone; ++k) {
         bench.drive(0).simulated().set_load_torque_Nm(-load_Nm * std::min(1.0, k / 200.0));
         bench.step();

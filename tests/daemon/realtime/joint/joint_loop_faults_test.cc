@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop against every fault that can be injected: each ends in its documented reaction within its
-// documented number of cycles, and nothing moves again by itself. Virtual time.
+// Injects every possible fault into the loop. Each ends in its documented reaction within its documented
+// number of cycles, and nothing moves again by itself. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class InjectedFaults : public ::testing::TestWithParam<InjectedFaultCase> {
     ASSERT_EQ(bench_.fault(0), Fault::kNone);
   }
 
-  /// The first falsified reading is in the last step made here.
+  /// The last step made here has the first falsified reading.
   void begin() {
     ASSERT_EQ(bench_.inject(0, GetParam().injection), Reason::kAccepted);
     if (GetParam().doing == Doing::kHoldingThenMoving) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several joints in one loop: what one joint's fault means for the others. Virtual time.
+// Several joints in one loop: effects of one joint's fault on the others. Virtual time.
 #include <gtest/gtest.h>
 
 #include "tests/support/joint_bench.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Homing and limit switches of a whole joint: control law, friction, encoder and all.
+// Homing and limit switches of a complete joint with control law, friction and encoder.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// Limits at -1 and 1, home switch from 0.2 to 0.3; the joint stands at 0.7 and its encoder counts from there.
+/// Limits at -1 and 1, home switch from 0.2 to 0.3. The joint is at 0.7, where its encoder begins to count.
 BenchJoint joint_to_be_homed() {
   BenchJoint joint = demo_joint();
   joint.drive.plant.initial_position_rad = 0.7;
@@ -52,7 +52,7 @@ TEST_F(JointLoopHoming, MakesPositionsTrueWithoutAJump) {
   EXPECT_NEAR(bench_->state(0).joint_position_rad, truth_rad(), 1e-4);
   EXPECT_FALSE(bench_->has_notice(0, Notice::kNotHomed));
   const double position_rad = truth_rad();
-  // A push of the landing that turns about costs 7.7 N.m; a position that jumped by the new zero would cost the whole limit of 34.
+  // A reversing push at the end of the motion costs 7.7 N.m. A position that jumped by the new zero would cost the full limit of 34.
   for (int period = 0; period < 500; ++period) {
     const double torque_Nm = bench_->state(0).torque_commanded_Nm;
     bench_->step();
@@ -143,7 +143,7 @@ TEST_F(JointLoopHoming, SurvivesADisable) {
   EXPECT_EQ(bench_->move(0, 0.1), Reason::kAccepted);
 }
 
-/// No homing; the positive limit switch is inside the position limits.
+/// A joint without homing. The positive limit switch is inside the position limits.
 BenchJoint joint_with_switch_in_its_way() {
   BenchJoint joint = demo_joint();
   joint.drive.inputs.positive_limit_rad = 0.5;
@@ -176,7 +176,7 @@ TEST_F(JointLoopHoming, GivesNoTorqueIntoALimitSwitch) {
   BenchJoint joint = joint_with_switch_in_its_way();
   joint.drive.plant.initial_position_rad = 0.52;
   hold(joint);
-  // Pulls away from the switch: holding it needs positive torque.
+  // The load pulls away from the switch, so that holding it would need positive torque.
   bench_->drive(0).simulated().set_load_torque_Nm(12.0);
   for (int i = 0; i < 2000 && bench_->has_notice(0, Notice::kAtLimitSwitch); ++i) {
     EXPECT_LE(bench_->drive(0).command().torque_Nm, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a joint's motions show of its inertia, in the daemon's loop: that it is published, and told where it is not as table and
-// configuration say.
+// The daemon's loop estimates a joint's inertia from its motions and publishes it. A notice says if it
+// differs from table and configuration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// With so many times the inertia that its table is for.
+/// A joint with `times` the inertia of its table.
 BenchJoint joint_of(double times) {
   BenchJoint joint = demo_joint();
   joint.drive.plant.joint.inertia_kgm2 *= times;
@@ -46,7 +46,7 @@ TEST(JointLoopInertia, IsToldWhereItIsNotTheTablesUntilTheJointIsEnabledAnew) {
     JointBench bench({joint});
     bench.bring_to_hold(0);
     move_to_and_fro(bench);
-    // Friction was learned with the wrong inertia, which is a part of the error.
+    // Friction was learned with the wrong inertia, which causes a part of the error.
     EXPECT_NEAR(shown_kgm2(bench), true_kgm2, 0.06 * true_kgm2) << times;
     EXPECT_TRUE(bench.has_notice(0, Notice::kOtherInertia)) << times;
     ASSERT_EQ(bench.order(0, OrderKind::kDisable), Reason::kAccepted);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams that no joint of these limits can follow, through the whole loop on the simulated joint: they are followed as closely as the limits
-// allow, and a notice says so. No fault, no limit passed, no torque that swings by itself, and rest once they are over. Virtual time.
+// Streams that exceed the joint's limits, through the whole loop on the simulated joint. The joint follows them as closely as the limits allow, and a
+// notice says so. There is no fault, no limit is exceeded, the torque does not oscillate, and the joint rests after the stream. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace {
 constexpr double kStep_s = 1e-3;
 constexpr int kStreamed = 4000;  ///< periods
 constexpr int kAfterwards = 2000;
-constexpr int kResting = 1500;  ///< from then on
+constexpr int kResting = 1500;  ///< periods after the stream, then it must rest
 
 struct Place {
   double position_rad = 0.0;
   double velocity_rad_s = 0.0;
 };
 
-/// What is streamed at a time.
+/// The streamed motion over time.
 struct Shape {
   std::string name;
   Place (*at)(double t_s);
@@ -45,7 +45,7 @@ Place sawtooth(double t_s, double amplitude_rad, double rate_Hz) {
   return {amplitude_rad * (2.0 * std::fmod(t_s * rate_Hz, 1.0) - 1.0), 2.0 * amplitude_rad * rate_Hz};
 }
 
-/// The same for the same time, between -1 and 1.
+/// A random value between -1 and 1, the same for the same time.
 double drawn(double t_s, double per_s) {
   std::mt19937 random(static_cast<unsigned>(std::floor(t_s * per_s + 1e-6)) * 7919U + 1U);
   random.discard(3);
@@ -72,7 +72,7 @@ const std::vector<Shape>& shapes() {
 }
 
 struct Joint {
-  bool told = false;         ///< behind a spring that the controller is told of
+  bool told = false;         ///< on a spring that the controller knows
   double jerk_rad_s3 = 0.0;  ///< limit; 0: none
 };
 
@@ -92,14 +92,14 @@ struct Outcome {
   Fault fault = Fault::kNone;
   int faulted_at = 0;
   bool off_stream = false;
-  double fastest_rad_s = 0.0;  ///< the reference
+  double fastest_rad_s = 0.0;  ///< of the setpoint
   double hardest_rad_s2 = 0.0;
   double jerk_rad_s3 = 0.0;
   double farthest_rad = 0.0;
-  double rest_rad_s = 0.0;  ///< the link's fastest, once the stream is over and the joint had time to stop
+  double rest_rad_s = 0.0;  ///< the link's fastest, after the stream and the time to stop
 };
 
-/// `every` period a sample; 0: the interval changes each half second.
+/// A sample every `every` periods; 0: the interval changes every half second.
 Outcome ride(const Joint& kind, const Shape& shape, int every, bool with_velocity) {
   constexpr int kIntervals[] = {10, 2, 50, 5, 20, 1, 33, 3};
   const BenchJoint joint = bench_joint(kind);
@@ -176,8 +176,8 @@ TEST(InfeasibleStreams, AreFollowedByARigidJointWithinItsLimitsAndSayTheyAreOff)
   }
 }
 
-// The setpoint is the motor's there, ahead of the link by the wind-up: faster than the link's limit by Jl 2 A / (tau K), 1 rad/s for all of the
-// acceleration from one limit to the other (docs/streams.md).
+// The setpoint there is the motor's, which leads the link by the wind-up. It is faster than the link's limit
+// by Jl 2 A / (tau K), 1 rad/s for all of the acceleration from one limit to the other (docs/streams.md).
 TEST(InfeasibleStreams, AreFollowedByAJointThatIsToldOfItsSpring) {
   int rides = 0;
   for (const Shape& shape : shapes())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a joint has learned of its friction: shown in its state, with a notice where it is far from the table, and obedient to orders.
+// Learned friction of a joint: it is in the state, obeys orders, and causes a notice if it is far from the table's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -95,7 +95,7 @@ TEST_F(JointLoopLearning, IsFrozenAndResumedByOrdersWhateverTheJointDoes) {
 
 TEST_F(JointLoopLearning, BelongsToTheFrictionRulesOfTheTable) {
   hold_with(0.25);
-  ASSERT_EQ(load(1, 0), Reason::kAccepted);  // the rules of the first
+  ASSERT_EQ(load(1, 0), Reason::kAccepted);  // the same rules as the first table
   EXPECT_EQ(state().friction_scales[0], 0.25);
   ASSERT_EQ(load(2, 7), Reason::kAccepted);
   EXPECT_EQ(state().friction_scales[0], 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ends a motion: the drive's faults and the joint's limits.
+// The drive's faults and the joint's limits, which end a motion.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -41,7 +41,7 @@ TEST_F(JointLoopLimits, KeepTheDrivesOwnErrorNumberWithTheFaultThatItExplains) {
   drive_->reading.fault = ActuatorFault::kDriveFault;
   drive_->reading.drive_error = 0x3210;
   step();
-  drive_->reading.drive_error = 0x8130;  // what follows explains nothing
+  drive_->reading.drive_error = 0x8130;  // a later error explains nothing
   step();
   EXPECT_EQ(loop_->record().state.drive_error, 0x3210);
   LoopEvent event;
@@ -101,7 +101,7 @@ TEST_F(JointLoopLimits, LatchTheStartTimeout) {
 
 TEST_F(JointLoopLimits, LatchTheStopTimeout) {
   hold();
-  drive_->drifting_rad_s = 0.2;  // the load drives it on, whatever the torque
+  drive_->drifting_rad_s = 0.2;  // the load moves it on, whatever the torque
   for (int i = 0; i < 50; ++i) step();
   ASSERT_EQ(fault(), Fault::kNone);
   ASSERT_EQ(order(OrderKind::kDisable), Reason::kAccepted);

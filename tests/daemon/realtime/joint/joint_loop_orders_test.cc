@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the loop makes of orders: streams that end, commands before their time, tables, restarts. Virtual time.
+// The loop's handling of orders: streams that end, commands before their time, tables, restarts. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class JointLoopOrders : public ::testing::Test {
 TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
   bench_.bring_to_hold(0);
-  // Far targets, so that the joint is at speed when the last one expires.
+  // Distant targets, so that the joint moves fast when the last one expires.
   ASSERT_EQ(bench_.move(0, 3.0, 0.1), Reason::kAccepted);
   ASSERT_EQ(bench_.step_until([&] { return bench_.has_notice(0, Notice::kSetpointExpired); }, 200), 100);
   double previous_rad_s = state().setpoint_velocity_rad_s;
@@ -39,7 +39,7 @@ TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   EXPECT_LT(state().joint_position_rad, 1.5) << "it did not go on to the target";
 }
 
-// Of the owner until now, with its samples that are for later.
+// The stream is the former owner's, with samples that are still in the future.
 TEST_F(JointLoopOrders, ThatTakeAJointOverEndAStreamAndLeaveAMove) {
   bench_.bring_to_hold(0);
   for (int sample = 0; sample < 8; ++sample)
@@ -100,7 +100,7 @@ TEST_F(JointLoopOrders, ThatWaitedBeyondTheirTimeAreRefused) {
   EXPECT_EQ(bench_.order(0, late), Reason::kAccepted);
 }
 
-// Whoever clears a fault has seen it: an order that was on its way when the joint faulted is not about that fault.
+// Only a client that has seen a fault may clear it. An order that was sent before the fault does not refer to it.
 TEST_F(JointLoopOrders, ThatWaitedWhileTheJointFaultedAreRefused) {
   bench_.bring_to_hold(0);
   Order order;
@@ -178,7 +178,7 @@ TEST(JointLoopNotices, TellOfATemperatureOutsideTheTable) {
   EXPECT_TRUE(bench.has_notice(0, Notice::kTemperatureClamped));
 }
 
-// Learning, which would take the load over, is frozen.
+// Learning is frozen; otherwise it would learn the load.
 TEST(JointLoopNotices, TellOfALoadThatHoldsTheJointOffItsPlaceForASecond) {
   JointBench bench({demo_joint()});
   ASSERT_EQ(bench.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);

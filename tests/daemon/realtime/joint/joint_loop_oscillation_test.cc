@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints that are not what the configuration says, and oscillate: fault 26 comes soon, and says what was seen. Virtual time.
+// Joints that differ from their configuration and oscillate. Fault 26 comes soon, and its text names the cause. Virtual time.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// Moves to and fro by 0.3 rad, one a second, until it faults; the fault in words.
+/// Moves to and fro by 0.3 rad, once per second, until it faults. Returns the fault's text.
 std::string words_of_fault(BenchJoint joint, const GainTable& table) {
   joint.loop.limits.overspeed_rad_s = 1e3;
   joint.loop.limits.following_error_rad = 10.0;

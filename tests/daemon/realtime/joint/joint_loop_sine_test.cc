@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A streamed sine, period by period: where the joint is, and its torque against what the sine itself asks of the simulated joint. That is its
-// exact inverse dynamics, with the true friction, which changes its sign within the period in which the motor turns round. What networks do to
-// streams: tests/control/stream_buffer_network_test.cc. Virtual time.
+// A streamed sine, period by period: the joint's position, and its torque against the torque that the sine requires of the simulated
+// joint. The required torque is the exact inverse dynamics with the true friction, which changes its sign in the period in which the
+// motor reverses. For the effects of networks on streams see tests/control/stream_buffer_network_test.cc. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 constexpr double kSinePeriod_s = 1e-3;
 constexpr int kSineBegin = 1000;
 constexpr int kSineEnd = 5000;
-// The command of a cycle acts a period after it was given, for a period.
+// The command of a cycle acts one period later, for one period.
 constexpr int kActsAfter = 1;
 
-/// Mean over the period that begins at `begin_s` of what the sine of the link asks of the motor. The spring's wind-up stays on its first slope:
-/// the motor's sine is the link's, smaller by Jl w^2 / K1.
+/// Mean torque that the link's sine requires of the motor in the period that begins at `begin_s`. The spring's
+/// wind-up stays on its first slope, so that the motor's sine is smaller than the link's by Jl w^2 / K1.
 double asked_Nm(const JointPlantConfig& plant, double temperature_C, const StreamedSine& sine,
                 double begin_s) {
   constexpr int kParts = 200;
@@ -45,7 +45,7 @@ double asked_Nm(const JointPlantConfig& plant, double temperature_C, const Strea
 struct Ride {
   std::vector<double> given_Nm;
   std::vector<double> asked_Nm;
-  double rms_error_rad = 0.0;  ///< of the link, from the sine, the allowed lag ago
+  double rms_error_rad = 0.0;  ///< of the link, from the sine at the allowed lag
   bool off_stream = false;
 };
 
@@ -74,7 +74,7 @@ Ride ride(const StreamedSine& sine, bool flexible) {
   return result;
 }
 
-/// What a step is beyond those that the sine asks for in the same period, or in that before or after it.
+/// The part of a step that exceeds those required in the same period and in the periods before and after it.
 double unasked_Nm(const Ride& torques, std::size_t k) {
   double least_Nm = 0.0, most_Nm = 0.0;
   for (std::size_t i = k - 1; i <= k + 1; ++i) {
@@ -97,7 +97,7 @@ void expect_torque_of(const StreamedSine& sine, bool flexible) {
     squares += std::pow(seen.given_Nm[k] - seen.asked_Nm[k], 2);
   }
   EXPECT_LT(largest_Nm, 1.0) << what;
-  // What friction is beside the table's, and what is learned of it, stays: 0.2 to 0.4 N.m rms.
+  // The difference between true, tabulated and learned friction remains: 0.2 to 0.4 N.m rms.
   EXPECT_LT(std::sqrt(squares / static_cast<double>(seen.given_Nm.size())), 0.5) << what;
   EXPECT_LT(seen.rms_error_rad, 1e-3) << what;
   EXPECT_FALSE(seen.off_stream) << what;
@@ -143,7 +143,7 @@ TEST(StreamedSine, TakesItsOwnTorqueAtEveryAmplitudeAndRate) {
     }
 }
 
-// What the motor's own motion takes, regulated as it is, fed forward times the load's inertia a period later would drive it on.
+// The feedback regulates the motor's own motion. A feed-forward of that motion times the load's inertia, a period later, would excite it.
 TEST(StreamedSine, CarriesALoadThatItTellsOfOnASpring) {
   for (const double load_kgm2 : {0.05, 0.2})
     expect_torque_of({.derivatives = 1, .ahead = 40, .load_kgm2 = load_kgm2}, true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams that are to stand, or end somewhere, as senders make them: places read from an encoder that flickers, and a new stream with
-// every sample. A joint that stands needs no torque but its load's. Virtual time.
+// Streams that stand still, or end at a position, as real senders send them: positions read from an encoder that
+// flickers, and a new stream with every sample. A joint at rest needs no torque except for its load. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ const GainTable& table_of(Kind kind) {
   return kind == Kind::kRigid ? demo_table() : flexible_table();
 }
 
-/// Streamed to every 10 ms for 2 s; the largest change of the torque from one period to the next in the last 1.5 s.
+/// Streams to the joint every 10 ms for 2 s. Returns the largest change of torque between two periods in the last 1.5 s.
 double largest_step_Nm(JointBench& bench, double flicker_rad) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> flicker(-flicker_rad, flicker_rad);
@@ -52,7 +52,7 @@ double largest_step_Nm(JointBench& bench, double flicker_rad) {
   return largest_Nm;
 }
 
-// By the sign of the reference's velocity all of friction was thrown to and fro: 3.6 N.m at 20 degC, 7.5 at -8 degC, at nanoradians.
+// By the sign of the setpoint's velocity, all of friction used to alternate at nanoradians: 3.6 N.m at 20 degC, 7.5 at -8 degC.
 TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
   for (const Kind kind : {Kind::kRigid, Kind::kSpring})
     for (const double ambient_C : {-8.0, 20.0})
@@ -60,14 +60,14 @@ TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
         JointBench bench({joint_of(kind, ambient_C)});
         bench.bring_to_hold(0, table_of(kind));
         const double step_Nm = largest_step_Nm(bench, flicker_rad);
-        // What the link's motion needs of the motor comes besides.
+        // The link's motion needs an additional torque of the motor.
         EXPECT_LT(step_Nm, kind == Kind::kSpring ? 1.5 : 1.0)
             << kNames[static_cast<int>(kind)] << ", " << ambient_C << " degC, " << flicker_rad << " rad";
       }
 }
 
-// A stream whose every sample begins it anew is a poor sender's, and no reason to shake: its reference turned round in every period at
-// the end, by 13 N.m and more, until the sensor was taken for stuck (49 of 168).
+// A poor sender begins a new stream with every sample. The joint must not oscillate. At the end, its setpoint
+// used to reverse in every period, by 13 N.m and more, until the sensor was taken for stuck (49 of 168).
 TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoadAre) {
   for (const double friction : {0.6, 1.0, 1.7})
     for (const double load_Nm : {0.0, 8.0, 12.0})
@@ -88,7 +88,7 @@ TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoad
       }
 }
 
-// What it was told of the load is gone with the stream, and what it was held with against that is not forgotten either: the joint stays where it is.
+// The load that the stream announced ends with the stream. The torque that held against it is not forgotten, so that the joint stays in place.
 TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) {
   for (const bool flexible : {false, true})
     for (const double configured_Nm : {8.0, 12.0, -12.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a motion may begin with: a joint at rest, not too hot, and orders that are numbers.
+// Conditions for the start of a motion: a joint at rest that is not too hot, and orders that are numbers.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/realtime/joint/scripted_joint.h"
@@ -10,7 +10,7 @@ namespace {
 using JointLoopStart = ScriptedJoint;
 
 TEST_F(JointLoopStart, LatchTheTemperatureLimitInOneCycleWhateverThePlausibility) {
-  // Within the sensor's range but too sudden, just above the range, far above it.
+  // Within the sensor's range but too sudden, just above the range, and far above it.
   for (const double temperature_C : {85.0, 90.5, 200.0}) {
     drive_->reading.drive_state = DriveState::kDisabled;
     drive_->reading.temperature_C = 25.0;
@@ -65,7 +65,7 @@ TEST_F(JointLoopStart, RefuseToEnableAJointThatMovesAndSayHowFast) {
 
 TEST_F(JointLoopStart, BeginWithTheMotionThatTheJointHasWhenItsDriveBecomesReady) {
   ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-  drive_->drifting_rad_s = 0.5;  // somebody pushes it while the drive starts
+  drive_->drifting_rad_s = 0.5;  // an external push while the drive starts
   for (int i = 0; i < 90; ++i) step();
   drive_->reading.drive_state = DriveState::kEnabled;
   step();

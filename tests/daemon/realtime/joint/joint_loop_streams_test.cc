@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams that begin roughly, far from the joint, late or wrongly, or that end: what the whole loop makes of them. Virtual time.
+// Streams that begin roughly, far from the joint, late or wrongly, or that end, in the whole loop. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// A sine at random, with noise on its positions to begin with; the torque's root mean square from 2.5 s on.
+/// A random sine, with noise on its positions at first. Returns the RMS torque from 2.5 s on.
 double rms_after_noise_Nm(unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
@@ -42,8 +42,8 @@ double rms_after_noise_Nm(unsigned seed) {
   return std::sqrt(squares);
 }
 
-// A plan that had less torque than it asked for swung between its limits for ever, at up to 34 N.m, after one rough begin in 1000: these
-// among the first 8000.
+// After one rough start in 1000, a plan with less torque than it required oscillated between its limits for
+// ever, at up to 34 N.m. These seeds are the ones among the first 8000.
 TEST(JointLoopStreaming, LeaveNoOscillationWhereTheyBeginRoughly) {
   for (const unsigned seed : {2199U, 2776U, 4184U, 4375U, 4927U, 5186U, 6141U, 7961U})
     EXPECT_LT(rms_after_noise_Nm(seed), 8.0) << seed;

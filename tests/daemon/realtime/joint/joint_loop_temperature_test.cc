@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loss and return of the temperature signal while the joint is controlled, and the torque of a hot joint. Virtual time.
+// Loss and return of the temperature signal under control, and the torque of a hot joint. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class TemperatureLoss : public ::testing::TestWithParam<double> {
     return joint;
   }
 
-  /// Runs until the temperature is `valid` or not, and looks at the torque around that cycle.
+  /// Runs until the temperature becomes `valid` or not. Returns the torque's steps around that cycle.
   ChangeOver change_over(JointBench& bench, bool valid) {
     ChangeOver result{0.0, 0.0};
     double previous_Nm = bench.state(0).torque_commanded_Nm;
@@ -73,7 +73,7 @@ TEST_P(TemperatureLoss, MakesNoMoreTorqueStepInMotionThanTheMotionItself) {
   bench.run(1.0);
   bench.inject(0, {InjectedFault::kTemperatureLost});
   bench.run(0.2);
-  bench.move(0, 3.0);  // 6 s
+  bench.move(0, 3.0);  // takes 6 s
   const ChangeOver away = change_over(bench, false);
   EXPECT_EQ(bench.mode(0), Mode::kTracking);
   EXPECT_LE(away.torque_step_Nm, std::max(0.05, away.usual_step_Nm));
@@ -88,7 +88,7 @@ TEST_P(TemperatureLoss, MakesNoMoreTorqueStepInMotionThanTheMotionItself) {
 
 INSTANTIATE_TEST_SUITE_P(Temperatures, TemperatureLoss, ::testing::Values(-10.0, 5.0, 25.0, 45.0));
 
-/// The joint derates from 70 degC on, and its limit is at 80 degC.
+/// The joint derates from 70 degC on. Its limit is at 80 degC.
 BenchJoint joint_at(double temperature_C) {
   BenchJoint joint = demo_joint();
   joint.drive.plant.thermal.resistance_C_W = 0.0;
@@ -96,7 +96,7 @@ BenchJoint joint_at(double temperature_C) {
   return joint;
 }
 
-/// How long 2 rad take at the joint's full speed; the fault ends it.
+/// Periods that 2 rad take at the joint's full speed. A fault ends them.
 std::int64_t periods_of_a_move(JointBench& bench) {
   EXPECT_EQ(bench.move(0, 2.0), Reason::kAccepted);
   return bench.step_until([&] { return bench.mode(0) != Mode::kTracking; }, 60000);
@@ -123,7 +123,7 @@ TEST(Derating, MakesMotionsSlowerTheHotterTheJointAndNoneFails) {
   EXPECT_GT(before, 600) << "at full torque 0.4 s";
 }
 
-// A weight of 8 N.m does not fall for heat, and the joint brakes with all of its torque.
+// A weight of 8 N.m does not fall because of heat, and the joint brakes with all of its torque.
 TEST(Derating, LeavesTheTorqueThatHoldsAndBrakes) {
   BenchJoint joint = joint_at(79.5);
   joint.loop.controller.motion.velocity_rad_s = 1.0;
@@ -138,7 +138,7 @@ TEST(Derating, LeavesTheTorqueThatHoldsAndBrakes) {
   EXPECT_NEAR(bench.state(0).joint_position_rad, 2.0, 1e-3);
 }
 
-// To and fro without rest in surroundings of 70 degC, a gear that warms within seconds. `derating_C` at the limit: there is none.
+// Moves to and fro without rest at 70 degC ambient, with a gear that warms within seconds. No derating if `derating_C` is at the limit.
 Fault fault_of_hot_work(double derating_C) {
   BenchJoint joint = joint_at(70.0);
   joint.drive.plant.thermal = {1.2, 6.0, 0.1};

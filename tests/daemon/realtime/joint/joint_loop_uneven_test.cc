@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rigid joint that is what table and configuration say, on a drive that shares no line with ours (tests/support/strict_drive.h): its
-// SYNCs are not even, its torques and positions late, some of the positions lost. That is no fault, and the joint arrives. Virtual time.
+// A rigid joint that matches table and configuration, on a drive that shares no code with ours (tests/support/strict_drive.h). Its SYNCs
+// are uneven, its torques and positions late, and some positions are lost. There must be no fault, and the joint must arrive. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ std::ostream& operator<<(std::ostream& out, const Uneven& uneven) {
 
 struct Moves {
   int faults = 0;
-  double overshoot_rad = 0.0;  ///< the largest
-  double off_rad = 0.0;        ///< of the target, at rest, the farthest
+  double overshoot_rad = 0.0;  ///< the largest one
+  double off_rad = 0.0;        ///< largest distance from the target at rest
 };
 
 class UnevenJoint {
@@ -67,14 +67,14 @@ class UnevenJoint {
     return moves;
   }
 
-  /// There and back.
+  /// Moves there and back.
   Moves swing(int count) {
     Moves moves;
     for (int i = 0; i < 2 * count; ++i) move_to(i % 2 == 0 ? 0.3 : 0.0, moves);
     return moves;
   }
 
-  /// Likewise; the loop is away for so many periods somewhere on each way.
+  /// The same, but the loop stalls for `periods` periods somewhere on each way.
   Moves swing_with_stalls(int count, int periods) {
     stall_periods_ = periods;
     return swing(count);
@@ -128,7 +128,7 @@ TEST(UnevenDrive, SwingsALongWayWithinAFifthOfAMilliradianWithTorquesOrPositions
   }
 }
 
-// No SYNC is sent over a stall: what is read after it is the position of before.
+// During a stall no SYNC is sent, so that the next reading is the position before it.
 TEST(UnevenDrive, WhosePositionAfterAStallIsOfTheTimeBeforeMakesNoFault) {
   for (const int lag : {0, 1})
     for (const int periods : {1, 3}) {

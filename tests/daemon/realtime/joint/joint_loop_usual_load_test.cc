@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The load limit that a joint has which is given none: what pushes a joint that holds passes it before it takes all of the torque, and what
-// a sound joint shows of itself does not. Virtual time.
+// The default load limit of a joint. A push on a joint that holds exceeds it before it takes all of the
+// torque; a sound joint's own torques do not exceed it. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const GainTable& spring_table(double total_kgm2) {
   return FlexibleTables::nearest(tables.c4, total_kgm2);
 }
 
-/// `joint` as the configuration would have it that says nothing of loads.
+/// `joint` with the load limits of a configuration without keys for loads.
 BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
   JointConfig configured;
   configured.loop = joint.loop;
@@ -33,14 +33,14 @@ BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
   return joint;
 }
 
-/// Flexible, as `plant` is.
+/// A flexible joint like `plant`.
 BenchJoint on_a_spring(const JointPlantConfig& plant) {
   BenchJoint joint = demo_joint();
   put_on_spring(joint, plant);
   return joint;
 }
 
-/// A hand that leans on a joint that holds, with 10 N.m more each second. The largest torque as a share of the limit that holds.
+/// A hand pushes on a joint that holds, with 10 N.m more each second. Returns the largest torque as a share of the limit that holds.
 double lean_on(const BenchJoint& joint, const GainTable& table, const char* name) {
   const double torque_limit_Nm = joint.loop.controller.torque_limit_with(table);
   const double load_Nm = joint.loop.limits.load.under(torque_limit_Nm).load_Nm;
@@ -66,7 +66,7 @@ double lean_on(const BenchJoint& joint, const GainTable& table, const char* name
 TEST(UsualLoad, LetsAJointGoOfAPushThatGrowsSlowly) {
   EXPECT_LT(lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table(), "rigid"), 0.9);
   const double total_kgm2 = 2.0 * kMotor_kgm2;
-  // The small motions with which it corrects its place take what its acceleration asks for.
+  // Its small corrections of the position take as much torque as its acceleration requires.
   EXPECT_LE(lean_on(with_usual_load(on_a_spring(flexible_plant()), total_kgm2), spring_table(total_kgm2),
                     "flexible"),
             1.0);
@@ -98,7 +98,7 @@ TEST(UsualLoad, FollowsTheTableThatComesLater) {
   EXPECT_EQ(fault_of_push(14.0), Fault::kOverload);
 }
 
-/// To and fro, each time as far as `step_rad`, at the joint's full speed: whether a high load was noticed. An overload fails the test.
+/// Moves to and fro by `step_rad` at the joint's full speed. Returns whether a high load was noticed. An overload fails the test.
 bool notices_load(BenchJoint joint, const GainTable& table, double temperature_C, double step_rad) {
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   JointBench bench({joint});
@@ -116,7 +116,7 @@ bool notices_load(BenchJoint joint, const GainTable& table, double temperature_C
   return noticed;
 }
 
-// Every fifth of the study's cells, at 6 rad/s and 150 rad/s^2.
+// Every fifth cell of the study, at 6 rad/s and 150 rad/s^2.
 TEST(UsualLoad, IsNotWhatASpringShows) {
   const std::vector<FlexibleCell> grid = flexible_grid();
   for (std::size_t i = 0; i < grid.size(); i += 5) {
@@ -128,7 +128,7 @@ TEST(UsualLoad, IsNotWhatASpringShows) {
   }
 }
 
-// With little torque friction takes most of it: 5.8 of 8 N.m at -10 degC.
+// If the torque is small, friction takes most of it: 5.8 of 8 N.m at -10 degC.
 TEST(UsualLoad, IsNotWhatFrictionOrAccelerationShows) {
   for (const double torque_limit_Nm : {34.0, 8.0}) {
     int notices = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// That a joint has yielded to a load is told until it is moved anew, and why, to whoever asks.
+// The notice that a joint has yielded to a load, and why, lasts until the joint moves again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ BenchJoint joint_that_yields() {
   return joint;
 }
 
-// Who was not looking sees it until somebody moves the joint anew.
+// A late observer still sees it, until the joint is moved again.
 class YieldNotice : public ::testing::Test {
  protected:
   static constexpr Order kIntoTheWall{

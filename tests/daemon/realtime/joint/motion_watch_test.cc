@@ -20,7 +20,7 @@ class MotionWatchTest : public ::testing::Test {
     watch_->begin(position_rad_, now_ns_);
   }
   Fault judge() { return watch_->judge(motion_, position_rad_, now_ns_ += 1'000'000); }
-  /// Periods until the first fault, 0 when none comes in `limit` of them; `each` changes things before.
+  /// Periods until the first fault, or 0 if none comes in `limit` of them. `each` is called before every period.
   template <typename Each>
   int periods_until(Fault fault, int limit, Each each) {
     for (int period = 1; period <= limit; ++period) {
@@ -136,7 +136,7 @@ TEST_F(MotionWatchTest, BoundsTheLoadOverTime) {
   EXPECT_NEAR(periods_until(Fault::kOverload, 5000, [] {}), 20, 1);
 }
 
-// One push makes both: which is seen first says how far the joint falls behind while the load lasts.
+// One push causes both faults. The distance by which the joint falls behind during the load decides which one comes first.
 TEST_F(MotionWatchTest, CallsAPushWhatItIsFirstAndAFollowingErrorWhereItIsBothAtOnce) {
   const auto falls_behind_by = [&](double each_period_rad, Fault fault) {
     watch_->begin(position_rad_ = 0.0, now_ns_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint whose drive closes its own loop, from the loop's orders to the simulated drive's cascade and back, in virtual time.
+// A joint whose drive closes its own loop, from the loop's orders to the simulated drive's cascade and back. Virtual time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ OwnLoopJoint joint_in(DriveMode mode) {
   return made;
 }
 
-/// The loop, the bus, and the drive.
+/// The loop, the bus and the drive.
 class OwnLoopBench {
  public:
   explicit OwnLoopBench(const OwnLoopJoint& made, const GainTable& table = demo_table()) : can({made.drive}) {
@@ -48,7 +48,7 @@ class OwnLoopBench {
     give({.kind = OrderKind::kEnable});
     EXPECT_TRUE(run_until(Mode::kHolding, 1000));
   }
-  /// `periods` later: those between were left out.
+  /// Steps to `periods` later. The periods in between are skipped.
   void step(int periods = 1) {
     time_.elapsed_periods = periods;
     time_.cycle += periods;
@@ -89,7 +89,7 @@ class OwnLoopBench {
 
   DriveBench can;
   std::unique_ptr<JointLoop> loop;
-  double largest_off_rad = 0.0;  ///< from the reference, under control
+  double largest_off_rad = 0.0;  ///< from the setpoint, under control
 
  private:
   std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
@@ -187,11 +187,11 @@ TEST_P(OwnLoopInEachMode, IsHomedAtALimitSwitch) {
     bench.step();
   }
   EXPECT_EQ(bench.loop->mode(), Mode::kHolding) << to_text(bench.fault());
-  // What the joint makes in a period of the inputs, and the way that stopping takes.
+  // The joint's way in a period of the inputs, and the way to stop.
   EXPECT_NEAR(bench.loop->joint().zero.to_joint_rad(kSwitch_rad), -1.0, 0.002);
 }
 
-// Without SYNC the drive has stood: a target that had gone on would be reached within a period.
+// Without SYNC the drive has stood still. A target that had moved on would have to be reached within a period.
 TEST(OwnLoopInPosition, TheTargetDoesNotJumpOverAGap) {
   OwnLoopBench bench(joint_in(DriveMode::kPosition));
   bench.give({.kind = OrderKind::kSetpoint, .position_rad = 2.0, .approaches = true});
@@ -227,7 +227,7 @@ TEST(OwnLoop, OrdersTheMotorWithWindUpSoThatTheLinkArrives) {
   OwnLoopJoint made = joint_in(DriveMode::kPosition);
   put_on_spring(made.joint, flexible_plant());
   made.drive.node.drive.plant.effects = flexible_plant().effects;
-  // The link hangs on its spring: 8 N.m turn it by half a milliradian.
+  // The link hangs on its spring, which 8 N.m wind up by half a milliradian.
   const GravityLoad gravity{8.0, 0.0};
   made.joint.loop.controller.gravity = gravity;
   made.drive.node.drive.plant.effects.gravity = gravity;

@@ -56,7 +56,7 @@ TEST_F(PositionCheckTest, RefusesAPositionThatStandsWhileTheTorqueMustMoveTheJoi
   EXPECT_NEAR(cycles, 2, 1);
 }
 
-// A landing's pushes move the joint within a coarse count, and friction ends each.
+// At the end of a motion, pushes move the joint within a coarse count, and friction ends each.
 TEST_F(PositionCheckTest, BelievesPushesToAndFroThatTheReadingIsTooCoarseFor) {
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(see(1.0, 0.0));
   for (int push = 0; push < 1000; ++push) {
@@ -66,7 +66,7 @@ TEST_F(PositionCheckTest, BelievesPushesToAndFroThatTheReadingIsTooCoarseFor) {
   }
 }
 
-// The physics themselves never contradict the check, whatever the torque and the constant load.
+// The physics never contradict the check, whatever the torque and the constant load.
 TEST(PositionCheck, BelievesEverySoundJoint) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> torque(-34.0, 34.0);

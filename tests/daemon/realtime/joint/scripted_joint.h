@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint's loop on a drive that says whatever the test wants: limits and faults that no simulated drive shows by itself.
-// Virtual time.
+// A joint's loop on a drive whose readings the test sets, for limits and faults that no simulated drive shows
+// by itself. Virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class ScriptedJoint : public ::testing::Test {
     order(OrderKind::kUseTable);
   }
   void step() { bench_->step(); }
-  /// Long enough to be seen not to move.
+  /// Stands still until the loop regards the joint as at rest.
   void stand() {
     for (int i = 0; i < 200; ++i) step();
   }
@@ -65,7 +65,7 @@ class ScriptedJoint : public ::testing::Test {
     ASSERT_EQ(loop_->mode(), Mode::kHolding);
   }
   Fault fault() const { return bench_->fault(0); }
-  /// Cycles until the fault, counting the first one as 1; 0 when none comes within `limit`.
+  /// Cycles until the fault, with the first one as 1, or 0 if none comes within `limit`.
   int cycles_until_fault(int limit) {
     for (int cycles = 1; cycles <= limit; ++cycles) {
       step();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sine that is streamed to the whole loop on the simulated joint.
+// A sine streamed to the whole loop on the simulated joint.
 #pragma once
 
 #include <cmath>
@@ -14,16 +14,16 @@ namespace strainwave::testing {
 struct StreamedSine {
   int every = 10;  ///< periods
   int derivatives = 0;
-  int ahead = 0;  ///< periods that it is stamped ahead; 0: it says when it was sent
+  int ahead = 0;  ///< periods by which it is stamped ahead; 0: stamped with the time of sending
   double amplitude_rad = 0.5;
   double rate_Hz = 0.5;
-  double load_kgm2 = 0.0;  ///< that it carries besides, and the stream tells of
+  double load_kgm2 = 0.0;  ///< additional load, which the stream announces
 
   double omega_rad_s() const { return 2.0 * std::numbers::pi * rate_Hz; }
-  /// Periods that the joint is behind it.
+  /// Periods by which the joint lags behind it.
   double lag() const { return ahead == 0 ? 1e3 * JointControllerConfig{}.stream_delay_s : 0.0; }
 
-  /// The sample of `period` since the stream began, which is given before `cycle`.
+  /// The sample of `period` since the beginning of the stream, given before `cycle`.
   Order sample(std::int64_t cycle, std::int64_t period) const {
     const double phase = omega_rad_s() * 1e-3 * static_cast<double>(period + ahead);
     Order order;

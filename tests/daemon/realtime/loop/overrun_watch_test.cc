@@ -18,7 +18,7 @@ TEST(OverrunWatch, SpeaksAtOnceOfAStallThatIsTooLong) {
 
 TEST(OverrunWatch, SpeaksWhenALargerShareOfASecondIsMissedThanAllowedHoweverItIsSpread) {
   for (const std::int64_t skipped : {1, 3, 15}) {
-    // A cycle that misses `skipped` periods, then as many in time that the share is a little too large, or a little too small.
+    // A cycle misses `skipped` periods. The number of timely periods after it makes the share slightly too small or too large.
     for (const double share : {0.08, 0.12}) {
       OverrunWatch watch({0.02, 0.1}, kPeriod_s);
       const auto in_time = static_cast<std::int64_t>(static_cast<double>(skipped) * (1.0 / share - 1.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clock against itself: what it promises whatever the host does. No duration is asserted.
+// The clock's promises, which hold whatever the host does. No duration is asserted.
 #include "daemon/realtime/loop/periodic_clock.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop's thread on real time: what it does in which order, what it publishes, and how it ends. What is asserted does not depend
-// on when the host lets it run.
+// The loop's thread in real time: the order of its actions, its publications, and its end. The assertions do
+// not depend on when the host runs it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// What happened, in its order, without allocating: b begin, r read, w write, s stop, e end.
+/// The events in their order, without allocation: b begin, r read, w write, s stop, e end.
 struct Journal {
   static constexpr std::size_t kRoom = 4096;
   std::array<char, kRoom> entries{};
@@ -89,7 +89,7 @@ TEST(RealtimeLoop, PutsEveryJointOfABusBetweenItsBeginAndItsEnd) {
   EXPECT_EQ(text, expected + last);
 }
 
-/// The demo's joint, simulated, and a stall that its drive makes on order.
+/// The demo's simulated joint, with a stall of its drive on request.
 class StallingActuator final : public Actuator {
  public:
   explicit StallingActuator(WatchedActuator& inner) : inner_(inner) {}
@@ -109,7 +109,7 @@ class StallingActuator final : public Actuator {
   std::atomic<bool> stall_{false};
 };
 
-/// A drive that is driven and moves, whatever it is told.
+/// A drive that stays powered and moves, whatever its orders.
 class RunawayActuator final : public Actuator {
  public:
   ActuatorReading read(std::int64_t now_ns) noexcept override {
@@ -132,7 +132,7 @@ class RunawayActuator final : public Actuator {
   double position_rad_ = 0.0;
 };
 
-/// Joints of the demo in a loop on a busy host: late cycles are no fault.
+/// The demo's joints in a loop on a busy host, where late cycles are no fault.
 class RunningLoop : public ::testing::Test {
  protected:
   RunningLoop() {
@@ -164,7 +164,7 @@ class RunningLoop : public ::testing::Test {
     return reply.reason;
   }
   Reason order(std::size_t joint, OrderKind kind) { return order(joint, Order{0, kind, 0, 0.0, 0.0, {}}); }
-  /// The joint's next record for which `wanted` holds.
+  /// The joint's next record for which `wanted` is true.
   template <class Wanted>
   state_v1 next_state(std::int64_t joint, Wanted wanted) {
     for (;;) {

@@ -110,7 +110,7 @@ TEST(StartCheck, ReportsACpusetWithoutTheConfiguredProcessor) {
   std::ostringstream out;
   try {
     check_start(config, out);
-  } catch (const InputError&) {  // the gateway's program stands beside the daemon's, not beside this one
+  } catch (const InputError&) {  // the gateway's program is beside the daemon, not here
   }
   EXPECT_NE(out.str().find("warning: daemon.cpu = 1023"), std::string::npos) << out.str();
 }

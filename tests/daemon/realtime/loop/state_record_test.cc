@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a record says that no other test of the loop looks at. Virtual time.
+// Fields of a record that no other test of the loop checks. Virtual time.
 #include "daemon/realtime/loop/state_record.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints of different kinds on one path: they follow their plans later by their own delays, jerk limits and springs, and go together all the same.
+// Joints of different kinds on one path. Their delays, jerk limits and springs make them lag differently, but they must move together.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double kFar_rad = 0.4;
 constexpr double kFastest_rad_s = 0.4;
 constexpr double kDuration_s = 2.0;
 constexpr double kTogether_rad = 0.4e-3;
-/// Where the path's time comes to rest in a tenth of a second: the acceleration that this takes begins at once, and a spring and a jerk limit round it.
+/// The tolerance if the path's time stops within a tenth of a second. Its acceleration begins at once, but a spring and a jerk limit round it.
 constexpr double kBrakedTogether_rad = 1.2e-3;
 
 BenchJoint companion_on_a_spring(double link_kgm2) {
@@ -33,7 +33,7 @@ GainTable companion_table(const char* total) {
   return read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + total + "/c4.json");
 }
 
-/// A rigid joint, one with a jerk limit, one on a spring, one with a heavy link on a spring.
+/// A rigid joint, one with a jerk limit, one with a spring, and one with a heavy link on a spring.
 class PathCompanions : public ::testing::Test {
  protected:
   PathCompanions() : bench_(joints()), went_(4) {
@@ -64,7 +64,7 @@ class PathCompanions : public ::testing::Test {
         went_[i].push_back(bench_.drive(i).simulated().plant().link_state().position_rad);
     }
   }
-  /// The farthest that two of them were from each other at any time.
+  /// The largest distance between two joints at any time.
   double farthest_apart_rad() const {
     double farthest_rad = 0.0;
     for (std::size_t k = 0; k < went_[0].size(); ++k) {
@@ -85,7 +85,7 @@ class PathCompanions : public ::testing::Test {
   }
 
   JointBench bench_;
-  std::vector<std::vector<double>> went_;  ///< where the links were
+  std::vector<std::vector<double>> went_;  ///< positions of the links
 };
 
 TEST_F(PathCompanions, LeaveGoAndArriveTogether) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints on paths, in virtual time: real joint loops over simulated drives.
+// Joints on paths in virtual time: real joint loops with simulated drives.
 #include "daemon/realtime/path/path_follower.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kJoints = 6;
 constexpr double kPeriod_s = 0.001;
-/// On the demonstration's joint, with friction and delay; most of it where a joint turns round and its friction with it.
+/// For the demonstration's joint with friction and delay. The deviation is largest at a reversal, where friction changes its sign.
 constexpr double kDeviation_rad = 1e-3;
 
 KnotPath path_of(std::initializer_list<PathKnot> knots) {
@@ -25,10 +25,10 @@ KnotPath path_of(std::initializer_list<PathKnot> knots) {
   return path;
 }
 
-/// What rounding leaves of a velocity that is 0.
+/// Rounding of a velocity that should be 0.
 constexpr double kStands_rad_s = 1e-9;
 
-/// There and back in 2 s; each joint its own way, up to 0.8 rad/s and 6.7 rad/s^2.
+/// There and back in 2 s, with a different way for each joint, up to 0.8 rad/s and 6.7 rad/s^2.
 KnotPath wave(std::size_t joint) {
   const double size_rad = 0.2 + 0.08 * static_cast<double>(joint);
   return path_of({{0.0, 0.0, 0.0},
@@ -38,7 +38,7 @@ KnotPath wave(std::size_t joint) {
                   {2.0, 0.1 * static_cast<double>(joint), 0.0}});
 }
 
-/// Where a joint's setpoint and the joint were in each cycle.
+/// The setpoint and position of a joint in each cycle.
 struct Trace {
   std::vector<state_v1> states;
   std::int64_t first_motion(double begins_rad) const {
@@ -145,7 +145,7 @@ TEST_F(PathFollowerTest, StatesTellWhereAPathIsAndThatItIsPaused) {
   EXPECT_FALSE(paused(0));
 }
 
-/// Of what ends the motion of one joint, also against a wall: how the others stop.
+/// Events that end the motion of one joint, also a wall. The other joints must stop.
 class PathEnds : public PathFollowerTest {
  protected:
   static constexpr std::size_t kLost = 4;
@@ -161,7 +161,7 @@ class PathEnds : public PathFollowerTest {
     joints[kLost].loop.overload_stop = OverloadStop::kHoldLoad;
     return joints;
   }
-  /// Within what the deceleration needs from 0.8 rad/s; along the path it takes a tenth of a second and more.
+  /// Within the time of the deceleration from 0.8 rad/s. Along the path it would take a tenth of a second and more.
   void expect_the_others_to_stop_at_once() {
     run(0.04);
     for (std::size_t i = 0; i < kJoints; ++i) {
@@ -222,7 +222,7 @@ TEST_F(PathFollowerTest, AHoldForgetsAPathThatHasNotBegun) {
   EXPECT_EQ(bench_.last_reply().value, 5.0);
 }
 
-// In the cycle of the order itself a joint is lost: none of the others begins.
+// A joint is lost in the very cycle of the order. None of the others may begin.
 TEST_F(PathFollowerTest, NobodyBeginsWhenOneIsStoppedInTheCycleOfTheStart) {
   load_all();
   ASSERT_TRUE(bench_.joint(5).orders().push(Order{.kind = OrderKind::kDisable}));

@@ -26,7 +26,7 @@ TEST(PathSlots, BringOnePathAtATime) {
   EXPECT_TRUE(slots.hand_over(path_with(4)));
 }
 
-// One thread hands over what another uses: a path is never seen half-written, also while the one before is in use.
+// One thread hands over paths and another uses them. No path is ever half-written, even while the previous one is in use.
 TEST(PathSlots, ShowWholePathsToTheOtherThread) {
   PathSlots slots;
   std::atomic<std::int32_t> ordered{-1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths drawn at random on one, two and six joints, cold and warm, with friction that is and is not what the table says, some paused on the
-// way: the limits hold, and the joints are near them. Virtual time.
+// Random paths on one, two and six joints, cold and warm, with friction equal to the table's or not, some
+// paused on the way. The limits must hold, and the joints must stay near their paths. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,15 +20,15 @@ constexpr double kPeriod_s = 0.001;
 constexpr MotionLimits kMotion{4.0, 30.0, 30.0};  // config/demo.toml
 constexpr double kJerk_rad_s3 = 6000.0;
 constexpr double kLongest_s = 4.0;
-/// What somebody reads who teaches a point by hand.
+/// Resolution of points that a person teaches by hand.
 constexpr double kTaught_rad = 1e-4;
-/// How often somebody leaves one of several joints where it is.
+/// Probability that one of several joints does not move.
 constexpr double kStays = 0.15;
-/// Limits are kept but for rounding.
+/// The limits hold up to rounding.
 constexpr double kKept = 1.0 + 1e-6;
-/// As far as a joint is to be from its path at most, at moderate speed.
+/// Largest allowed distance of a joint from its path, at moderate speed.
 constexpr double kFarOff_rad = 0.5e-3;
-/// Half a second after its end: farther off a notice would say so (rest_tolerance_rad).
+/// Half a second after the end of the path. A larger distance would cause a notice (rest_tolerance_rad).
 constexpr double kLeft_rad = 1e-3;
 constexpr double kPause_s = 0.4;
 
@@ -38,7 +38,7 @@ double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// Velocities with which the acceleration has no step at inner knots: the spline that is at rest at both ends.
+/// Velocities for which the acceleration has no step at inner knots: the spline that is at rest at both ends.
 ///   v_i-1 / h_i-1 + 2 v_i (1 / h_i-1 + 1 / h_i) + v_i+1 / h_i = 3 (d_i-1 / h_i-1 + d_i / h_i)
 void give_spline_velocities(KnotPath& path) {
   std::array<double, KnotPath::kMostKnots> above{}, right{};
@@ -56,7 +56,7 @@ void give_spline_velocities(KnotPath& path) {
     path.knots[i].velocity_rad_s = right[i] - above[i] * path.knots[i + 1].velocity_rad_s;
 }
 
-/// A spline through a few points, or one through many that are read to 0.1 mrad off waves.
+/// A spline through a few points, or one through many points of waves, rounded to 0.1 mrad.
 KnotPath draw_part(std::mt19937_64& random, const std::vector<double>& times_s, double reach_rad) {
   const bool taught = times_s.size() > 16;
   KnotPath path;
@@ -88,7 +88,7 @@ void stretch(KnotPath& path, double in_time, double in_size) {
   }
 }
 
-/// A part for each joint, at the same times, within a third of the speed and half of the acceleration that the joints have.
+/// A part for each joint, with the same times, within a third of the joints' speed and half of their acceleration.
 std::vector<KnotPath> draw_path(std::mt19937_64& random, std::size_t joints) {
   std::vector<double> times_s(std::uniform_int_distribution<std::size_t>(0, 1)(random) == 0
                                   ? std::uniform_int_distribution<std::size_t>(3, 16)(random)
@@ -111,7 +111,7 @@ std::vector<KnotPath> draw_path(std::mt19937_64& random, std::size_t joints) {
       {speed_rad_s / (kMotion.velocity_rad_s / 3.0 * between(random, 0.2, 1.0)),
        std::sqrt(acceleration_rad_s2 / (0.49 * kMotion.acceleration_rad_s2 * between(random, 0.2, 1.0))),
        least_s / times_s.back()});
-  // One that would take too long goes less far, as fast.
+  // A path that would take too long is made shorter, at the same speed.
   const double less = std::min(1.0, kLongest_s / (in_time * times_s.back()));
   for (KnotPath& part : parts) {
     stretch(part, in_time, 1.0);
@@ -130,9 +130,9 @@ BenchJoint joint_of(Kind kind, double friction, double temperature_C, std::uint6
   return joint;
 }
 
-/// What was seen of all joints of one path, at most.
+/// The largest values of all joints on one path.
 struct Ride {
-  double off_rad = 0.0;                                 ///< the link, from the path then
+  double off_rad = 0.0;                                 ///< of the link, from the path at that time
   double left_rad = 0.0;                                ///< from the path's end, half a second after it
   double acceleration_rad_s2 = 0.0, jerk_rad_s3 = 0.0;  ///< of setpoints
 };
@@ -186,11 +186,11 @@ Ride ride(const std::vector<KnotPath>& parts, Kind kind, const std::vector<Bench
   return seen;
 }
 
-/// What must hold of joints of one kind with so many times the table's friction.
+/// Bounds for joints of one kind with `friction` times the table's friction.
 struct Bounds {
   double friction = 1.0;
   double off_rad = 0.0;
-  double share_within = 1.0;  ///< of the rides, in which no joint is ever 0.5 mrad off
+  double share_within = 1.0;  ///< share of rides in which no joint is ever 0.5 mrad off
 };
 
 void follow_all(Kind kind, const Bounds& bounds) {
@@ -210,7 +210,7 @@ void follow_all(Kind kind, const Bounds& bounds) {
         std::optional<double> pause_s;
         if (round == 2) pause_s = between(random, 0.01, parts[0].duration_s());
         const Ride seen = ride(parts, kind, benched, pause_s);
-        // What a link on a spring gives its motor to do besides is more than the link's.
+        // A link on a spring requires more acceleration of its motor than its own.
         if (kind != Kind::kSpring) {
           EXPECT_LE(seen.acceleration_rad_s2, kMotion.acceleration_rad_s2 * kKept);
         }
@@ -228,7 +228,7 @@ void follow_all(Kind kind, const Bounds& bounds) {
   EXPECT_GE(within, bounds.share_within * rides);
 }
 
-// A rigid joint is off most where it breaks away and turns.
+// The error of a rigid joint is largest at breakaway and reversal.
 TEST(RandomPaths, AreFollowedByRigidJoints) {
   for (const Bounds& bounds : {Bounds{1.0, 0.75e-3, 0.7}, Bounds{0.8, 1e-3, 0.7}, Bounds{1.2, 1e-3, 0.6}})
     follow_all(Kind::kRigid, bounds);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every way in which the bus can fail: the reaction, its time, and the way back. docs/can.md lists them.
+// Every way in which the bus can fail: the reaction, its time, and the recovery. docs/can.md lists them.
 #include "tests/drivers/can/cia402/cia402_failure.h"
 
 namespace strainwave::testing {
@@ -39,7 +39,7 @@ TEST_F(Cia402BusFailure, WhatABusOffSwallowedIsNotWaitedForAfterTheRestart) {
   EXPECT_TRUE(bench_.enable());
 }
 
-// A link that is down for a moment leaves a drive that has no deadline with its last torque: the stop must not wait for anybody.
+// If a link is down for a moment, a drive without a deadline keeps its last torque. The stop must go out at once.
 TEST_F(Cia402BusFailure, AnInterfaceThatWasDownForAMomentCarriesTheStopAsSoonAsItIsBack) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x1400 5 0x06090011");

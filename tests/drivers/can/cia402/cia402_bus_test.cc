@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cycle of a bus with drives that work.
+// The cycle of a bus with working drives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST_F(Cia402Bus, MovesTheJointByTheTorqueThatWasOrdered) {
   const double moved_rad = bench_.node().drive().plant().measured_position_rad();
   EXPECT_GT(moved_rad, 0.05);
   bench_.run(2, {15.0, true});
-  // The next SYNC samples it, and the period after reads it.
+  // The next SYNC samples the position, and the bus reads it one period later.
   EXPECT_NEAR(bench_.reading().joint_position_rad, moved_rad, 1e-9);
   EXPECT_NEAR(bench_.reading().torque_applied_Nm, 15.0, 0.05);
 }
@@ -146,8 +146,7 @@ TEST_F(Cia402Bus, LeavesTheDriveDisabledAndWithoutAFaultAtTheEnd) {
     EXPECT_EQ(note.find("heartbeat-lost"), std::string::npos);
 }
 
-/// A loop's port in fixed memory: every frame sent comes back, every SYNC is answered by a position of an
-/// enabled drive.
+/// A fixed-memory port for the loop. It echoes every sent frame and answers every SYNC with a position of an enabled drive.
 class FixedPort final : public CanPort {
  public:
   SendResult send(const CanFrame& frame) noexcept override {
@@ -183,7 +182,7 @@ TEST_F(Cia402Bus, AllocatesNothingInItsCycle) {
   nodes.push_back(std::make_unique<cia402::Node>(bench_.config()));
   const CanPortFactory real = bench_.can().factory();
   const CanPortFactory open = [&](const CanPortOptions& options) -> std::unique_ptr<CanPort> {
-    // Only the loop's port overtakes others.
+    // Only the loop opens an urgent port.
     if (options.urgent) return std::make_unique<FixedPort>();
     return real(options);
   };

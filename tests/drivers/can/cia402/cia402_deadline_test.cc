@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stops a drive when its master is gone: the deadline of its RPDO beside the supervision of our heartbeat; and which PDOs it is
-// left with.
+// The drive stops without its master by the deadline of its RPDO and by the supervision of our heartbeat. The tests also check which PDOs stay
+// enabled.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// Until the drive has no torque, while a stranger sends what our heartbeat looks like; at most a second.
+/// Returns the time until the drive has no torque, at most a second. Meanwhile a stranger imitates our heartbeat.
 std::int64_t torque_ends_after_ns(DriveBench& bench) {
   const std::int64_t dead_ns = bench.can().now_ns();
   while (bench.node().drive().power() == can_nodes::PowerState::kOperationEnabled &&

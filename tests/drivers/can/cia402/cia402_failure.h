@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of failures share: a joint that moves under torque on a bus in virtual time.
+// Shared by tests of failures: a joint that moves under torque on a bus in virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class Cia402Failure : public ::testing::Test {
     EXPECT_EQ(detail_of(bench_.reading().drive_error), detail)
         << can_detail_text(bench_.reading().drive_error);
   }
-  /// The last controlword and torque that the drive was sent.
+  /// The controlword and the torque of the last order to the drive.
   std::uint64_t last_controlword() { return little_endian(last_order().bytes.data(), 2); }
   std::uint64_t last_torque() { return little_endian(&last_order().bytes[2], 2); }
   CanFrame last_order() { return bench_.frames(0x203, 0).back(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every way in which a drive can fail: the reaction, its time, and the way back. docs/can.md lists them.
+// Every way in which a drive can fail: the reaction, its time, and the recovery. docs/can.md lists them.
 #include <limits>
 
 #include "tests/drivers/can/cia402/cia402_failure.h"
@@ -58,7 +58,7 @@ TEST_F(Cia402Failure, AFewMissingPositionsAreCountedAndForgiven) {
 
 TEST_F(Cia402Failure, AnUnexpectedBootUpIsAFaultAndClearingSetsTheDriveUpAgain) {
   bench_.tell_node("reboot 100");
-  // Silence is noticed first: the node is out for longer than positions may be missing.
+  // The driver notices the missing positions before it sees the boot-up message.
   EXPECT_GT(bench_.periods_until_fault(10, kMoving), 0);
   bench_.run(150, {0.0, false});
   bench_.clear();
@@ -76,7 +76,7 @@ TEST_F(Cia402Failure, ABootUpAloneIsAFaultInTheSamePeriod) {
   expect_fault(ActuatorFault::kDriveRestarted, CanDetail::kBootUp);
 }
 
-// The torque afterwards: tests/adversary/foreign_nmt_master.cc.
+// tests/adversary/foreign_nmt_master.cc checks the torque afterwards.
 
 TEST_F(Cia402Failure, ADriveThatLeavesTheOperationalStateIsAFault) {
   CanFrame order;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions that come later than their SYNC says: measured, reckoned with, and from a bound on a fault.
+// Positions that arrive later than their SYNC suggests. The driver measures and reports their delay, and it faults above a limit.
 #include "tests/drivers/can/cia402/cia402_failure.h"
 
 namespace strainwave::testing {
@@ -10,7 +10,7 @@ using Cia402LatePosition = Cia402Failure;
 TEST_F(Cia402LatePosition, PositionsThatStayLateAreAFaultThoughOneComesInEveryPeriod) {
   for (const char* late : {"late-tpdo 2400 100000", "late-tpdo 10400 100000"}) {
     DriveBench bench({bench_drive(3)});
-    bench.config().quick_stop_after = 20;  // the gap at the beginning alone would be a fault
+    bench.config().quick_stop_after = 20;  // otherwise the first gap would already be a fault
     bench.config().zero_torque_after = 2;
     bench.start();
     ASSERT_TRUE(bench.enable());
@@ -26,7 +26,7 @@ TEST_F(Cia402LatePosition, PositionsThatStayLateAreAFaultThoughOneComesInEveryPe
 
 TEST_F(Cia402LatePosition, WholePeriodsOfLatenessAreSeenThoughThePlaceInThePeriodIsTheUsual) {
   DriveBench bench({bench_drive(3)});
-  bench.config().quick_stop_after = 20;  // the gap at the beginning alone would be a fault
+  bench.config().quick_stop_after = 20;  // otherwise the first gap would already be a fault
   bench.start();
   ASSERT_TRUE(bench.enable());
   bench.run(50, kMoving);
@@ -36,7 +36,7 @@ TEST_F(Cia402LatePosition, WholePeriodsOfLatenessAreSeenThoughThePlaceInThePerio
   EXPECT_LE(periods, 45) << "three TPDO2 of ten periods, and what they are late by";
   EXPECT_EQ(detail_of(bench.reading().drive_error), CanDetail::kPositionLate)
       << can_detail_text(bench.reading().drive_error);
-  // Nothing is late any more once the drive was set up anew.
+  // After a new setup of the drive no position is late.
   bench.tell_node("late-tpdo 0 0");
   bench.run(50, {0.0, false});
   bench.clear();
@@ -81,7 +81,7 @@ TEST_F(Cia402LatePosition, ADelayThatADriveHasFromTheStartIsPartOfDelayPeriods) 
 TEST_F(Cia402LatePosition, ADriveThatIsLateOnlyAtTheLoopsRateIsRefused) {
   for (const char* late : {"1400", "3000", "6400", "10400"}) {
     DriveBench bench({bench_drive(3)});
-    // Until here it answers at once, as it would a single SYNC.
+    // The drive answers a single SYNC at once. Only at the loop's rate is it late.
     bench.tell_node("late-tpdo-at-rate " + std::string(late));
     const std::string text = bench.start_refusal();
     EXPECT_NE(text.find("at the loop's rate"), std::string::npos) << late << ": " << text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives that lack what others have, or have it for good: taken where nothing is lost, with a line that says what is.
+// Drives that lack common objects or have them fixed. The driver accepts them if nothing is lost, and reports what is missing.
 #include <gtest/gtest.h>
 
 #include "tests/drivers/can/drive_bench.h"
@@ -12,7 +12,7 @@ const char* const kNoObject = " 0x06020000";
 
 class Cia402LeanDrive : public ::testing::Test {
  protected:
-  /// As the drive is stored: what a reset of the communication brings back.
+  /// Changes the stored value, which a reset of the communication restores.
   static void store(DriveBench& bench, can_nodes::Key key, std::int64_t value, can_nodes::Access access) {
     can_nodes::Object object = *bench.node().dictionary().find(key);
     object.value = value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives that close their own loop, when something fails: each stops on its ramp, and none jumps when it is taken up again.
+// Failures of drives that close their own loop. Each drive stops on its ramp, and none jumps when it is enabled again.
 #include "drivers/can/can_detail.h"
 #include "tests/drivers/can/cia402/own_loop_drive.h"
 
@@ -46,7 +46,7 @@ TEST_P(Cia402OwnLoopFailure, ADriveThatLeavesItsModeIsStopped) {
 }
 
 TEST_P(Cia402OwnLoopFailure, PositionsThatStayLateAreAFaultAndStopTheDrive) {
-  drive_.config.quick_stop_after = 20;  // the gap at the beginning alone would be a fault
+  drive_.config.quick_stop_after = 20;  // otherwise the first gap would already be a fault
   start_turning();
   joint_->bench.tell_node("late-tpdo 2400 100000");
   expect_stop(ActuatorFault::kReadFailed, CanDetail::kPositionLate, 20);
@@ -66,7 +66,7 @@ TEST_P(Cia402OwnLoopFailure, ADriveThatLosesItsSupplyIsTakenUpWhereItIs) {
   EXPECT_NEAR(joint_->position_rad(), rest_rad, 2.0 * kOwnLoopCount_rad);
 }
 
-// The brake opens with the power, and what is ordered until then is not followed.
+// The brake opens after power-on, and until then the drive does not follow the orders.
 TEST_P(Cia402OwnLoopFailure, StandsUntilASlowBrakeIsOpen) {
   drive_.node.drive.enable_delay_us = 300'000;
   DriveBench bench({drive_});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives that close their own loop of position or velocity: what start-up asks of them, and what they are ordered in the loop.
+// Drives that close their own position or velocity loop: the checks at start-up and the orders in the loop.
 #include <gtest/gtest.h>
 
 #include <cmath>

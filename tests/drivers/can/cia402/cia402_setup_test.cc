@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What start-up does to a drive, what it insists on, and how it says what is wrong.
+// The setup of a drive at start-up: the changes, the requirements and the error messages.
 #include <gtest/gtest.h>
 
 #include "drivers/can/cia402/cia402_setup.h"
@@ -113,7 +113,7 @@ TEST(Cia402Setup, NamesEveryDriveThatFails) {
 }
 
 bool is_order(const CanFrame& frame) {
-  // A download's command specifier is 1 when it begins.
+  // The command specifier of the first frame of a download is 1.
   const bool writes = frame.id == 0x603 && frame.bytes[0] >> 5U == 1U;
   return frame.id == 0 || frame.id == 0x203 || writes;
 }
@@ -138,7 +138,7 @@ TEST(Cia402Setup, RefusesTwoNodesWithOneId) {
 TEST(Cia402Setup, ChangesTheIdentifierOfAPdoOnlyWhileItIsSwitchedOff) {
   DriveBench bench({bench_drive(3)});
   bench.can().run_to(bench.can().now_ns() + 200'000'000);
-  // As another master left it; a reset of the communication brings the stored value back.
+  // The value left by another master. A reset of the communication restores the stored value.
   can_nodes::Object identifier = *bench.node().dictionary().find({0x1800, 1});
   identifier.value = 0x1C5;
   bench.node().dictionary().add({0x1800, 1}, identifier);
@@ -202,7 +202,7 @@ TEST(Cia402Setup, LeavesADisabledDriveWhateverItWasDoing) {
   bench.start();
   ASSERT_TRUE(bench.enable());
   bench.run(50, {10.0, true});
-  bench.start();  // a second daemon; the first one's bus ends without any order in between
+  bench.start();  // a second daemon; the bus of the first one ends without an order to the drive
   bench.run(5, {0.0, false});
   EXPECT_NE(bench.node().drive().power(), can_nodes::PowerState::kOperationEnabled);
   EXPECT_EQ(bench.node().drive().torque_demand_Nm(), 0.0);
@@ -232,7 +232,7 @@ TEST(Cia402Setup, MakesOneDriveTheSyncProducerWhenAsked) {
   drive.config.daemon_sends_sync = false;
   DriveBench bench({drive});
   bench.bus_config().sync = SyncProducer::kOther;
-  // The simulated drive produces none; the order to do so is what is tested.
+  // The simulated drive cannot produce SYNC. The test checks the order to do so.
   bench.tell_node("refuse 0x1005 0 0x06090030");
   expect_mentions(bench.start_refusal(), {"1005h:00", "value not allowed"});
   EXPECT_EQ(entry(bench, 0x1006), 1000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives that take their time to start and to answer, and what is read from them beside the loop.
+// Drives that start and answer slowly, and the values that the background thread reads from them.
 #include <gtest/gtest.h>
 
 #include "tests/drivers/can/drive_bench.h"

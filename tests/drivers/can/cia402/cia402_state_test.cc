@@ -23,7 +23,7 @@ TEST(PowerState, IsReadFromTheBitsThatTheStandardNames) {
       {0x0028, PowerState::kFault},
   };
   for (const auto& [status, state] : table) {
-    // Bits 4, 7 and above (voltage, warning, remote, target, vendor's) say nothing of the state.
+    // Bits 4, 7 and above (voltage, warning, remote, target, vendor's) do not affect the state.
     for (const int others : {0x0000, 0x0010, 0x0090, 0xFF80, 0xFF90})
       EXPECT_EQ(power_state_of(static_cast<std::uint16_t>(status | others)), state)
           << status << ' ' << others;

@@ -134,7 +134,7 @@ TEST(TemperatureObject, IsReadWithItsTypeScaleAndOffset) {
   EXPECT_NEAR(temperature_C(object, 65), 25.0, 1e-12);
 }
 
-// The longest frame, stuffed as badly as it can be: after five equal bits a sixth, and every four from there.
+// The longest frame with worst-case bit stuffing: a stuff bit after five equal bits, then after every four more.
 TEST(BusLoad, HasTheWorstStuffingOfTheLiterature) {
   EXPECT_EQ(worst_case_frame_bits(8), 135);
   EXPECT_EQ(worst_case_frame_bits(4), 95);

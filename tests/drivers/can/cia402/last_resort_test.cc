@@ -12,7 +12,7 @@ constexpr std::int64_t kPeriod_ns = 1'000'000;
 
 class LastResortTest : public ::testing::Test {
  protected:
-  /// Lets periods pass; what was due is sent.
+  /// Advances by periods and sends what is due.
   void run(int periods) {
     for (int i = 0; i < periods; ++i, now_ns_ += kPeriod_ns) {
       if (!resort_.due(now_ns_)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of drives that close their own loop share: one on a bus in virtual time, enabled.
+// Shared by tests of drives that close their own loop: one enabled drive on a bus in virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,18 +32,18 @@ class OwnLoop {
     enable();
   }
   void enable() {
-    // As the loop has it while a joint is not controlled.
+    // The joint loop gives this order while a joint is not controlled.
     for (int i = 0; i < 200 && bench.reading().drive_state != DriveState::kEnabled; ++i) hold();
     EXPECT_EQ(bench.reading().drive_state, DriveState::kEnabled);
   }
   void hold() { bench.step({0.0, true, bench.reading().joint_position_rad, 0.0}); }
-  /// The joint turns at `velocity_rad_s`: how far it is from where it was ordered to be by now, at most.
+  /// Turns the joint at `velocity_rad_s`. Returns the largest distance to the position ordered for that instant, in the second half.
   double largest_error_rad(double velocity_rad_s, int periods) {
     double ordered_rad = bench.reading().joint_position_rad;
     double due_rad = ordered_rad;
     double largest_rad = 0.0;
     for (int i = 0; i < periods; ++i) {
-      // What was ordered is reached at the end of its period, and read in the period after that.
+      // The drive reaches an ordered position at the end of its period, and the next period reads it.
       const double due_next_rad = ordered_rad;
       ordered_rad += velocity_rad_s * 1e-3;
       bench.step({0.0, true, ordered_rad, velocity_rad_s});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint that is homed by its encoder's index: touch probe 1 of the drive, alone and on the bus.
+// A joint that is homed by the index of its encoder: touch probe 1 of the drive, alone and on the bus.
 #include "drivers/can/cia402/touch_probe.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ BenchDrive drive_with_index() {
   return drive;
 }
 
-// A motor's turn, of which the drive gives an index pulse.
+// One turn of the motor, at the joint. The drive gives one index pulse per turn.
 constexpr double kPulseEvery_rad = 2.0 * std::numbers::pi / 50.0;
 
 TEST(Cia402Index, IsLatchedByTheDriveWhereItIsWhateverTheJointDoesMeanwhile) {
@@ -64,7 +64,7 @@ TEST(Cia402Index, IsLatchedByTheDriveWhereItIsWhateverTheJointDoesMeanwhile) {
   ASSERT_TRUE(bench.enable());
   std::int64_t pulses = bench.reading().inputs.index_count;
   int seen = 0;
-  // There and back over the same pulses.
+  // The joint moves back and forth over the same pulses.
   for (int period = 0; period < 3000; ++period) {
     bench.step({period / 500 % 2 == 0 ? 3.0 : -3.0, true});
     const JointInputs& inputs = bench.reading().inputs;

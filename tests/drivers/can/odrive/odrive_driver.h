@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of the ODrive driver share: it and the independent simulated axis of tests/support/can_nodes, on a bus in virtual time.
+// Shared by tests of the ODrive driver: the driver and the independent simulated axis of tests/support/can_nodes, on a bus in virtual time.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every way in which an ODrive can fail: the reaction and the way back.
+// Every way in which an ODrive can fail: the reaction and the recovery.
 #include <limits>
 
 #include "tests/drivers/can/odrive/odrive_driver.h"
@@ -12,7 +12,7 @@ using OdriveFailure = OdriveDriver;
 TEST_F(OdriveFailure, ReportsTheDrivesErrorsByName) {
   start_moving();
   tell("error 0x2000");
-  EXPECT_NE(periods_until_fault(102), 0);  // the heartbeat tells it
+  EXPECT_NE(periods_until_fault(102), 0);  // the heartbeat reports the error
   EXPECT_EQ(reading_.fault, ActuatorFault::kDriveFault);
   EXPECT_EQ(odrive::drive_error_text(reading_.drive_error), "MOTOR_OVER_TEMP");
   run(500, kMoving);
@@ -79,7 +79,7 @@ TEST_F(OdriveFailure, IsSetUpAgainAfterALostLinkOnAnOperatorsOrderOnly) {
   run(200, {0.0, true});
   EXPECT_EQ(reading_.fault, ActuatorFault::kConnectionLost) << "latched";
   run(10, kOff);
-  tell("firmware 0 5 6");  // another drive was plugged in
+  tell("firmware 0 5 6");  // another drive was connected
   joint_->clear_fault();
   bus_->serve();
   run(10, kOff);

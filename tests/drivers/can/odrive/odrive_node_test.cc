@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ODrive driver finds at the start, and what it orders.
+// The checks of the ODrive driver at start-up, and its orders.
 #include "tests/drivers/can/odrive/odrive_driver.h"
 
 namespace strainwave::testing {
@@ -63,7 +63,7 @@ TEST_P(OdriveDirection, TurnsTheJointWithTheOrderedTorqueWhicheverWayTheDriveCou
   run(60, kMoving);
   EXPECT_NEAR(axis_->torque_Nm(), 10.0, 1e-5);
   EXPECT_GT(reading_.joint_position_rad, 0.0);
-  // Sampled within the last period, by an encoder of 320000 counts.
+  // The position was sampled within the last period, with 320000 counts a turn.
   const JointState& joint = axis_->plant().state();
   EXPECT_NEAR(reading_.joint_position_rad, joint.position_rad, joint.velocity_rad_s * 1.5e-3 + 2e-5);
   EXPECT_TRUE(reading_.has_temperature);

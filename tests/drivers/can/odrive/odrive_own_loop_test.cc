@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An ODrive that closes its own loop of position or velocity: what it is ordered, and how it stops.
+// An ODrive that closes its own position or velocity loop: the orders to it, and how it stops.
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -18,16 +18,16 @@ class OdriveOwnLoop : public OdriveDriver {
   OdriveOwnLoop() {
     config_.drive_mode = DriveMode::kPosition;
     node_config_.torques_us = 1000;
-    node_config_.plant.period_s = kPeriod_s / 8.0;  // as such drives have it
+    node_config_.plant.period_s = kPeriod_s / 8.0;  // a typical ratio for such drives
     node_config_.plant.initial_position_rad = kInitial_rad;
   }
   void start_enabled() {
     start();
     ASSERT_TRUE(enable());
-    // As the loop has it while a joint is not controlled.
+    // The joint loop gives this order while a joint is not controlled.
     order_ = {0.0, true, reading_.joint_position_rad, 0.0};
   }
-  /// The joint turns: how far the drive's reading is from where it was ordered to be by now, at most, once it is under way.
+  /// Turns the joint. Returns the largest distance of the reading to the position due at that instant, in the second half.
   double largest_error_rad(double velocity_rad_s, int periods) {
     double largest_rad = 0.0;
     order_.motor_velocity_rad_s = velocity_rad_s;
@@ -87,7 +87,7 @@ TEST_P(OdriveOwnLoopDirection, TurnsAtTheVelocityThatItIsOrdered) {
 INSTANTIATE_TEST_SUITE_P(Signs, OdriveOwnLoopDirection, ::testing::Values(1, -1));
 
 TEST_F(OdriveOwnLoop, TakesTheTorqueThatIsFedForwardWithinTheLimit) {
-  node_config_.velocity_bandwidth_rad_s = 1e-6;  // its own loop does nothing
+  node_config_.velocity_bandwidth_rad_s = 1e-6;  // disables the drive's own loop
   start_enabled();
   order_.torque_Nm = 5.0;
   run(2, order_);

@@ -16,7 +16,7 @@ JointPlantConfig joint_with(double load_inertia_kgm2) {
   return plant;
 }
 
-/// Where the motor is, two seconds after it was to go to `target_rad` in one step against `load_Nm`.
+/// Position of the motor two seconds after a step of the setpoint to `target_rad`, against `load_Nm`.
 double place_after_step(const JointPlantConfig& config, double target_rad, double load_Nm) {
   DisturbanceObserverPeer peer(servo_joint(config));
   JointPlant plant(config);
@@ -44,7 +44,7 @@ TEST(ServoPeer, IsAsFastAsDelayAndResonanceLetIt) {
   EXPECT_DOUBLE_EQ(velocity_bandwidth_rad_s(joint), 25.0) << "a motor of a twentieth of the inertia";
 }
 
-// Without its observer a proportional-derivative controller would hang by load / gain, here 4.6 mrad, and friction.
+// Without its observer, a proportional-derivative controller would keep an error of load / gain, here 4.6 mrad, plus that of friction.
 TEST(DisturbanceObserverPeer, LeavesNothingOfAConstantLoad) {
   JointPlantConfig plant = joint_with(0.1);
   plant.joint.friction.amplitude = plant.joint.friction.asymptote = {0.0, 0.0, 0.5};

@@ -22,7 +22,7 @@ double weight(double acceptable) {
   return 1.0 / (acceptable * acceptable);
 }
 
-// By value iteration, on the joint that has one torque under way among its states: [ x, u one period ago ].
+// Reference: value iteration on the joint with the delayed torque as a state, [ x, u one period ago ].
 TEST(Lqg, ItsGainCarriedOverTheDelayIsTheOptimumWithTheTorqueUnderWayAsAState) {
   const ServoJoint joint = joint_with(0.1);
   const LqgWeights weights = lqg_weights(joint);
@@ -46,7 +46,7 @@ TEST(Lqg, ItsGainCarriedOverTheDelayIsTheOptimumWithTheTorqueUnderWayAsAState) {
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(carried(i), F(i), 1e-6 * F.cwiseAbs().maxCoeff()) << i;
 }
 
-// By the recursion of the covariance, from reading to reading.
+// Reference: the recursion of the covariance from reading to reading.
 TEST(Lqg, ItsFilterIsTheOneWithTheLeastCovariance) {
   const ServoJoint joint = joint_with(0.1);
   const LqgWeights weights = lqg_weights(joint);
@@ -67,7 +67,7 @@ TEST(Lqg, ItsFilterIsTheOneWithTheLeastCovariance) {
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(design.filter(i), L(i), 1e-6 * std::abs(L(i))) << i;
 }
 
-/// The linear joint under the peer, from 1 mrad off and at rest: how far the link is at the end of a second.
+/// Error of the link after one second under the peer, on the linear joint, from rest at 1 mrad.
 double left_rad(const ServoJoint& joint, double load_Nm) {
   LqgPeer peer(joint);
   const Eigen::Matrix<double, 5, 5> sampled = design_lqg(joint, lqg_weights(joint)).sampled;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPeriod_s = 0.001;
 constexpr double kFrequency_rad_s = 500.0;
 
-/// Amplitude of what becomes of a sine of amplitude 1, once the filter has swung in.
+/// Gain of the filter for a sine, after the transient.
 double gain_at(double frequency_rad_s, double width_share) {
   NotchFilter notch(kFrequency_rad_s, width_share, kPeriod_s);
   double largest = 0.0;

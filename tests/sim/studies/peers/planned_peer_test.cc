@@ -34,7 +34,7 @@ TEST(PlannedPeer, BringsTheLinkToItsTargetWithEachOfThePeers) {
     }
 }
 
-// docs/flexible-joint.md: with links up to three times the motor's inertia nearly every cell.
+// docs/flexible-joint.md states this for nearly every cell with links up to three times the motor's inertia.
 TEST(PlannedPeer, IsNowhereBetterThanTheDaemonToldOfItsSpringInTheMiddleOfTheGrid) {
   std::vector<FlexibleCell> cells;
   for (const FlexibleCell& cell : flexible_grid())
@@ -73,7 +73,7 @@ TEST(CascadePeer, LagsAMotionWithoutFeedForwardAndNotWithIt) {
 
 TEST(CascadePeer, AsksForNothingAtTheResonanceBehindItsNotch) {
   const ServoJoint joint = servo_joint(flexible_plant());
-  // Half of the torque's way from peak to peak: a constant is left of where the swing began.
+  // Half of the peak-to-peak torque, since the start of the swing leaves a constant offset.
   const auto swing_Nm = [&](ServoPeer& peer) {
     double low_Nm = 1e9;
     double high_Nm = -1e9;

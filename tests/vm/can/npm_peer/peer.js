@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A CANopen node made of packages written by others (npm: canopen, socketcan): their SDO server, PDO, NMT, heartbeat and
-// EMCY, against which our client proves itself. Ours is only what makes a servo drive of it: the objects of CiA 402, and the
-// statusword that answers the controlword. There is no joint behind it: its position stays where it is.
+// A CANopen node made of third-party packages (npm: canopen, socketcan). They provide SDO server, PDO, NMT, heartbeat and EMCY, against which our
+// client is tested. This file only makes a servo drive of it: the objects of CiA 402, and the statusword that answers the controlword. There is no
+// joint behind it: its position does not change.
 //
-//   node peer.js INTERFACE NODE-ID [position]     position: it closes its own loop and has no torque mode
+//   node peer.js INTERFACE NODE-ID [position]     position: the drive closes its own loop and has no torque mode
 //
-// Records NMT states, controlwords, and where it is sent. Lines on standard input: "emcy CODE"; "late MS": its SDO answers wait so long;
-// "wrong": they are about another object than was asked for; "right": neither.
+// Records NMT states, controlwords and ordered positions. Lines on standard input: "emcy CODE"; "late MS": SDO answers are delayed by MS; "wrong":
+// SDO answers name another object than the request; "right": neither.
 'use strict';
 const readline = require('readline');
 const can = require('socketcan');
@@ -17,7 +17,7 @@ const id = Number(idText);
 const byPosition = modeText === 'position';
 const { INTEGER8, INTEGER16, INTEGER32, UNSIGNED8, UNSIGNED16, UNSIGNED32 } = DataType;
 
-// A reset goes back to an entry's default.
+// A reset restores the default of an entry.
 function keep(entry, value) {
   entry.value = value;
   entry.defaultValue = value;
@@ -42,7 +42,7 @@ function makeObjects() {
   eds.setDeviceName('A peer written by others', kept);
   eds.setEmcyCobId(0x80 + id, kept);
   eds.addHeartbeatConsumer(127, 1000, kept);
-  // The library would make it 32 bits wide; the standard has 16.
+  // The library would make it 32 bits wide, but the standard says 16.
   addVariable(eds, 0x1017, UNSIGNED16, 0);
   eds.setIdentity({ vendorId: 0xFB, productCode: 0x61500000, revisionNumber: 1, serialNumber: 7 }, kept);
   eds.addSdoServerParameter(0, 0x580 + id, 0x600 + id, kept);
@@ -75,7 +75,7 @@ function makeObjects() {
   temperature.addSubObject(1, { parameterName: 'motor', dataType: INTEGER16, accessType: AccessType.READ_ONLY });
   keep(temperature.at(1), 253);
 
-  // The library maps PDOs when it starts; these are the ones that our driver asks for.
+  // The library maps PDOs when it starts. These are the PDOs that our driver asks for.
   const orders = byPosition ? [controlword, place, torqueOffset] : [controlword, torque];
   eds.addReceivePdo({ cobId: 0x200 + id, transmissionType: 1, dataObjects: orders }, kept);
   eds.addTransmitPdo({ cobId: 0x180 + id, transmissionType: 1, dataObjects: [position, statusword, torqueActual] }, kept);
@@ -83,7 +83,7 @@ function makeObjects() {
   return { eds, controlword, statusword, mode, modeDisplay, place };
 }
 
-// CiA 402: the statusword that a controlword leads to. No faults and no delays: a drive that obeys.
+// CiA 402: returns the statusword after a controlword. The drive obeys without faults and delays.
 function statusAfter(status, order) {
   const state = status & 0x6F;
   const switchOnDisabled = 0x40, ready = 0x21, switchedOn = 0x23, enabled = 0x27;
@@ -92,7 +92,7 @@ function statusAfter(status, order) {
   else if ((order & 0x07) === 0x06) next = ready;
   else if (state !== switchOnDisabled && (order & 0x0F) === 0x07) next = switchedOn;
   else if ((state === switchedOn || state === ready) && (order & 0x0F) === 0x0F) next = enabled;
-  const followsOrder = next === enabled ? 0x1000 : 0;  // CST: the drive follows what it is ordered
+  const followsOrder = next === enabled ? 0x1000 : 0;  // CST: the drive follows its orders
   return (status & ~0x106F) | next | followsOrder;
 }
 
@@ -105,7 +105,7 @@ function main() {
   device.addListener('message', (message) => {
     if (message.id !== 0x580 + id) return channel.send(message);
     const data = Buffer.from(message.data);
-    if (wrong) data[1] ^= 0x01;  // the index, in its low byte
+    if (wrong) data[1] ^= 0x01;  // the low byte of the index
     const answer = {...message, data};
     if (late_ms > 0)
       setTimeout(() => channel.send(answer), late_ms);
@@ -115,7 +115,7 @@ function main() {
   channel.addListener('onMessage', (message) => device.receive(message));
   let lastOrder = -1;
   let lastPlace = 0;
-  // An RPDO changes the entries silently and tells of itself instead.
+  // An RPDO changes the entries without an "update" event. It emits "pdo" instead.
   const obey = () => {
     const order = objects.controlword.value;
     objects.statusword.value = statusAfter(objects.statusword.value, order);
@@ -137,7 +137,7 @@ function main() {
   device.nmt.addListener('timeout', (node) => console.log(`heartbeat-lost ${node}`));
   readline.createInterface({ input: process.stdin }).on('line', (line) => {
     const [verb, code] = line.split(' ');
-    // By position: the library loses the code of an object.
+    // Passes the code alone, because the library loses it when it is passed in an object.
     if (verb === 'emcy') device.emcy.write(Number(code));
     if (verb === 'late') late_ms = Number(code);
     if (verb === 'wrong') wrong = true;
