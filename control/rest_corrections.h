@@ -11,7 +11,7 @@ namespace strainwave {
 
 class RestCorrections {
  public:
-  /// A motor at standstill for this long has stopped: a count flickers for less, and most links (20 to 80 Hz) swing once in less.
+  /// A motor at standstill for this long has stopped: a count flickers for less, and links above 50 Hz swing once in less.
   static constexpr double kStands_s = 0.02;
   /// A motor farther off than this is not at its target: the reading cannot resolve one count, and there is rounding.
   static constexpr double kAtPlaceCounts = 1.01;

@@ -13,7 +13,7 @@ namespace {
 
 // Least movement in counts over the span of a mean: its direction is then certain, and its velocity known to a tenth.
 constexpr double kLeastCounts = 6.0;
-// Weight of each window relative to the next one: a memory of half a second of motion.
+// Weight of each window relative to the next one: a memory of 0.67 s of motion.
 constexpr double kKept = 0.97;
 // Least error of a window, as a share of static friction times the window's length: load-dependent friction, ripple and swings.
 constexpr double kNoiseShare = 0.1;
