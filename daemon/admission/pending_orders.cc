@@ -78,7 +78,7 @@ void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
   if (!push(verdict)) {
     undo_preparation(verdict);
     return refuse(verdict, Reason::kBusy,
-                  "too many orders at once, at most " + std::to_string(kWaitingOrders - kPlacesForStops) +
+                  "too many orders at once, at most " + std::to_string(kMostWaitingOrders - kPlacesForStops) +
                       " of a joint may wait for its loop: send fewer, or wait for answers",
                   now_ns);
   }
@@ -90,7 +90,7 @@ void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
 // Other orders leave room for a disable and a hold. Further equal stops join the waiting one, see joins_equal_stop().
 bool PendingOrders::push(const Verdict& verdict) {
   const std::size_t joint = verdict.requester.joint;
-  OrderQueue& queue = loop_.joint(joint).orders();
+  JointOrderQueue& queue = loop_.joint(joint).orders();
   const bool stop = verdict.requester.stop;
   if ((!stop && queue.room() <= kPlacesForStops) || !queue.push(verdict.order)) return false;
   if (stop)

@@ -78,10 +78,11 @@ TEST(RigidBox, VOfARigidJointFallsInEveryPeriodOfTheLoopThatRuns) {
 TEST(RigidBox, ARigidBoxWithANumberIsADefect) {
   GainTable table = testing::shipped_table("csf-17-50");
   table.box.cells[static_cast<std::size_t>(table.box.cell_count)].P[3] = 1.0;
-  EXPECT_NE(find_defect(table).value_or("").find("beyond cell_count"), std::string::npos);
+  EXPECT_NE(find_defect(table).value_or("").find("must be 0"), std::string::npos);
   table = testing::shipped_table("csf-17-50");
   table.box.cell_count = 0;
-  EXPECT_NE(find_defect(table).value_or("").find("rigid"), std::string::npos);
+  EXPECT_NE(find_defect(table).value_or("").find("box.cells = 0: must be a list of 1 to 24"),
+            std::string::npos);
   table = testing::shipped_table("csf-17-50");
   table.box.cells[0].delay_periods = kMaxBoxDelay + 1;
   EXPECT_NE(find_defect(table), std::nullopt);

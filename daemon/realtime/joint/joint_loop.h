@@ -24,7 +24,7 @@ class JointLoop {
             ReplyQueue& replies, EventQueue& events);
 
   // Supervisor's thread.
-  OrderQueue& orders() noexcept { return orders_; }
+  JointOrderQueue& orders() noexcept { return orders_; }
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
 
@@ -57,7 +57,7 @@ class JointLoop {
 
   JointInLoop joint_;
   ReplyQueue& replies_;
-  OrderQueue orders_;
+  JointOrderQueue orders_;
   std::array<TableSlot, kTableSlots> tables_{};
   FlightRecorder* recorder_ = nullptr;
   StateRecord record_{};

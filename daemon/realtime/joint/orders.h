@@ -100,8 +100,8 @@ struct LoopEvent {
 };
 
 /// Orders of a joint that may wait for its loop.
-inline constexpr std::size_t kWaitingOrders = 64;
-using OrderQueue = SpscQueue<Order, kWaitingOrders>;
+inline constexpr std::size_t kMostWaitingOrders = 64;
+using JointOrderQueue = SpscQueue<Order, kMostWaitingOrders>;
 using ReplyQueue = SpscQueue<Reply, 4096>;
 using EventQueue = SpscQueue<LoopEvent, 1024>;
 

@@ -100,7 +100,7 @@ struct SectionName {
   std::uint16_t index = 0;
   std::string_view suffix;
 };
-std::optional<std::uint32_t> hexadecimal(std::string_view text) {
+std::optional<std::uint32_t> parse_hexadecimal(std::string_view text) {
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
   if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<std::uint32_t> hexadecimal(std::string_view text) {
 }
 std::optional<SectionName> object_section(std::string_view name) {
   constexpr std::size_t kDigits = 4;
-  const auto index = hexadecimal(name.substr(0, kDigits));
+  const auto index = parse_hexadecimal(name.substr(0, kDigits));
   if (name.size() < kDigits || !index || *index < kFirstIndex) return std::nullopt;
   return SectionName{static_cast<std::uint16_t>(*index), name.substr(kDigits)};
 }
@@ -171,7 +171,7 @@ class Reader {
     if (object->suffix.empty()) return add_head(object->index, section);
     if (object->suffix == "value") return add_compact_values(object->index, section);
     if (!object->suffix.starts_with("sub")) return;
-    const auto sub_index = hexadecimal(object->suffix.substr(3));
+    const auto sub_index = parse_hexadecimal(object->suffix.substr(3));
     if (sub_index && *sub_index <= UINT8_MAX)
       keep({object->index, static_cast<std::uint8_t>(*sub_index)}, section);
   }

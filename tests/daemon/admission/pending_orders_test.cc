@@ -245,7 +245,7 @@ TEST_F(PendingOrdersTest, OfWhoProvesWhoHeIsAreAnsweredHoweverManyStopsAreForged
 TEST_F(PendingOrdersTest, LeaveStopsTheirPlacesHoweverManyOrdersWait) {
   int passed = 0;
   while (order(OrderKind::kEnable, true).kind == Verdict::Kind::kOrder && passed < 1000) ++passed;
-  EXPECT_EQ(passed, static_cast<int>(kWaitingOrders - PendingOrders::kPlacesForStops));
+  EXPECT_EQ(passed, static_cast<int>(kMostWaitingOrders - PendingOrders::kPlacesForStops));
   for (const OrderKind stop : {OrderKind::kHold, OrderKind::kDisable})
     EXPECT_EQ(order(stop).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(order(OrderKind::kEnable, true).reason, Reason::kBusy);
