@@ -90,10 +90,10 @@ class JsonWriter {
   /// Writes an enumeration or a truth value as its name.
   template <typename Value, std::size_t N>
   void name(const std::string& key, Value& value, const std::array<const char*, N>& names) {
-    const auto number = static_cast<std::size_t>(value);
+    const auto number = static_cast<int>(value);
     document[key] = number;
-    require(number < N, key, "from 0 to " + std::to_string(N - 1));
-    document[key] = names[number];
+    require(number >= 0 && std::cmp_less(number, N), key, "from 0 to " + std::to_string(N - 1));
+    document[key] = names[static_cast<std::size_t>(number)];
   }
   void numbers(const std::string& key, std::span<double> values) { document[key] = values; }
   /// Writes the values as rows of `columns` numbers each.

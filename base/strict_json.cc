@@ -2,6 +2,7 @@
 #include "base/strict_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -107,7 +108,8 @@ std::string StrictObject::where(const std::string& key) const {
 std::string StrictObject::shown(const std::string& key) const {
   if (!has(key) || value_->at(key).is_object()) return where(key);
   const ordered_json& value = value_->at(key);
-  const std::string text = value.is_number_float()
+  // JSON has no name for a number that is not finite.
+  const std::string text = value.is_number_float() && !std::isfinite(value.get<double>())
                                ? number_text(value.get<double>())
                                : value.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
   return where(key) + " = " + (text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...");

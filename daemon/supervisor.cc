@@ -162,7 +162,7 @@ void Supervisor::turn(std::int64_t now_ns) {
   publish_challenge();
   take_messages(now_ns);
   publish_challenge();  // before a stop is answered, states carry the challenge that is valid after it
-  orders_.take_replies(now_ns);
+  if (const auto refused = orders_.take_replies(now_ns)) log_refusal(*refused, now_ns);
   log_buses();
   publish_owners(now_ns);
   take_states(now_ns);

@@ -161,6 +161,8 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   request.created_utc = utc_now();
   check_request(design);
   design.friction = joint.rules.friction;
+  require_friction(design.friction, request.torque_limit_Nm,
+                   options.friction.empty() ? options.gear : options.friction);
   request.friction_sha256 = joint.rules.sha256;
   request.note = joint.note;
   return request;
@@ -208,9 +210,8 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
                      "heaviest link's)");
   command
       .add_option("--gear", options.gear,
-                  "the gear by its catalogue name (data/gears.csv, default csf-17-50); the daemon compares "
-                  "it where its "
-                  "joint names one")
+                  "the gear by its catalogue name (data/gears.csv); the daemon compares it where its joint "
+                  "names one. With --friction alone the ratio is that of csf-17-50")
       ->check(CLI::IsMember(gear_list()));
   command
       .add_option(
@@ -275,9 +276,8 @@ void add_gains_command(CLI::App& program, CommandBody& chosen) {
   CLI::App* command = program.add_subcommand(
       "gains", "Design certified gains; the defaults are the RHS-17-6006 of Zhao (2006)");
   const auto options = std::make_shared<GainsOptions>();
-  command->add_option(
-      "--friction", options->friction,
-      "fuzzy rules: JSON from fit, or CSV (default: an estimate from the catalogue of gears)");
+  command->add_option("--friction", options->friction,
+                      "fuzzy rules: JSON from fit, or CSV (default: those of --gear, by the catalogue)");
   command->add_option("--rules-side", options->rules_side, "side of the gear that a rules CSV is stated at")
       ->check(CLI::IsMember({"joint", "motor"}))
       ->capture_default_str();

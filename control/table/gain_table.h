@@ -32,7 +32,7 @@ using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
 using GainRow = Eigen::RowVector3d;
 
-/// The plant that a table was designed for. The daemon refuses a table whose identity is not its joint's.
+/// The plant that a table was designed for. The daemon refuses another joint's table. For a flexible joint the box decides on inertias.
 struct PlantIdentity {
   FixedString<32> joint_model;  ///< e.g. "rhs17-6006"
   FixedString<32> gear;         ///< its name in data/gears.csv, e.g. "csf-17-50"; empty: unknown

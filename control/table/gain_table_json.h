@@ -16,6 +16,9 @@ namespace strainwave {
 /// whether the gains stabilise the plant.
 std::optional<std::string> find_defect(const GainTable& table);
 
+/// Throws InputError that begins with `source` if a table with this torque limit must not have these rules.
+void require_friction(const FuzzyFriction& friction, double torque_limit_Nm, const std::string& source);
+
 /// Pretty-printed JSON that reads back to the same bits. Throws InputError if the table has a defect.
 std::string to_json(const GainTable& table);
 

@@ -11,8 +11,8 @@
 //   v  = v0 + u a0 + u^2 j / 2
 //   a  = a0 + u j
 //
-// Position and velocity are continuous. The acceleration steps at knots, unless they were chosen to avoid this. Positions are extreme at
-// knots and where v = 0, velocities where a = 0, accelerations at knots.
+// Position and velocity are continuous. The acceleration may step at knots. Positions are extreme at knots and where v = 0, velocities at
+// knots and where a = 0, accelerations at knots.
 #pragma once
 
 #include <array>

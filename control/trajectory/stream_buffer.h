@@ -6,7 +6,7 @@
 //                 delay, which covers the network's jitter and the sender's interval
 //   motion        a quintic Hermite segment from the present target to the first sample at least 20 ms ahead. Position, velocity and
 //                 acceleration have no step, whatever arrives. Every sample replans it
-//   derivatives   missing ones come from the polynomial through the sample that fits its neighbours, before and after it, best
+//   derivatives   missing ones come from a polynomial through the sample, fitted to its neighbours before and after it
 //   no sample     the motion continues with its acceleration for some intervals, then with its velocity. After `bridge_s` or two intervals,
 //                 whichever is longer, and half an interval, at most 0.2 s, the stream has ended: the joint is to come to rest. A target
 //                 at standstill stays where it is

@@ -51,19 +51,23 @@ void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
     refuse(verdict, Reason::kBusy, "another table is just being proved", now_ns);
 }
 
-void PendingOrders::take_proved_table(std::int64_t now_ns) {
+std::optional<Verdict> PendingOrders::take_proved_table(std::int64_t now_ns) {
   std::optional<TableProver::Proved> proved = prover_.take();
-  if (!proved) return;
+  if (!proved) return {};
   Verdict& verdict = proved->order;
-  if (proved->box.reason != Reason::kAccepted)
-    return refuse(verdict, proved->box.reason, proved->box.text, now_ns);
-  if (verdict.stop_count != admission_.stop_count(verdict.requester.joint))
-    return refuse(verdict, Reason::kSuperseded,
-                  "the joint was stopped or faulted while the table was proved: send it again", now_ns);
-  verdict.text += proved->box.text;
-  verdict.order.expires_cycle = loop_.statistics().cycle.load() +
-                                admission_.order_lifetime_cycles();  // the order was fresh when it arrived
-  give(verdict, now_ns);
+  if (proved->box.reason != Reason::kAccepted) {
+    refuse(verdict, proved->box.reason, proved->box.text, now_ns);
+  } else if (verdict.stop_count != admission_.stop_count(verdict.requester.joint)) {
+    refuse(verdict, Reason::kSuperseded,
+           "the joint was stopped or faulted while the table was proved: send it again", now_ns);
+  } else {
+    verdict.text += proved->box.text;
+    verdict.order.expires_cycle = loop_.statistics().cycle.load() +
+                                  admission_.order_lifetime_cycles();  // the order was fresh when it arrived
+    give(verdict, now_ns);
+  }
+  if (verdict.kind != Verdict::Kind::kRefuse) return {};
+  return std::move(verdict);
 }
 
 void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
@@ -172,8 +176,8 @@ void PendingOrders::undo_preparation(const Verdict& verdict) {
   if (verdict.order.kind == OrderKind::kLoadPath) loop_.joint(joint).joint().path_slots.take_back();
 }
 
-void PendingOrders::take_replies(std::int64_t now_ns) {
-  take_proved_table(now_ns);
+std::optional<Verdict> PendingOrders::take_replies(std::int64_t now_ns) {
+  std::optional<Verdict> refused = take_proved_table(now_ns);
   Reply reply;
   while (loop_.replies().pop(reply)) {
     const bool accepted = reply.reason == Reason::kAccepted;
@@ -195,6 +199,7 @@ void PendingOrders::take_replies(std::int64_t now_ns) {
     if (over) give_up(entry.first, entry.second, now_ns);
     return over;
   });
+  return refused;
 }
 
 void PendingOrders::give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns) {

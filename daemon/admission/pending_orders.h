@@ -46,8 +46,9 @@ class PendingOrders {
   /// Acts on the verdict: answers it, or passes the order on. A refusal by this class is entered in `verdict`.
   void handle(Verdict& verdict, std::int64_t now_ns);
 
-  /// Passes on proved tables. Answers orders to which the loop has replied, and those whose reply is overdue.
-  void take_replies(std::int64_t now_ns);
+  /// Passes on a proved table. Answers orders to which the loop has replied, and those whose reply is overdue. Returns the order of a
+  /// table that is refused now.
+  std::optional<Verdict> take_replies(std::int64_t now_ns);
 
   /// Evaluates a state from the loop: it shows whether a table is in use whose reply was lost.
   void observe(const StateRecord& record);
@@ -77,7 +78,7 @@ class PendingOrders {
   bool push(const Verdict& verdict);
   bool joins_equal_stop(const Verdict& verdict);
   std::int64_t& latest_stop(const Verdict& verdict);
-  void take_proved_table(std::int64_t now_ns);
+  std::optional<Verdict> take_proved_table(std::int64_t now_ns);
   bool prepare_table(Verdict& verdict, std::int64_t& table_id);
   bool prepare_path(Verdict& verdict);
   void undo_preparation(const Verdict& verdict);

@@ -24,11 +24,12 @@ namespace strainwave {
 
 namespace {
 
-// Silences the child, limits its CPU time, solves, and writes the result to the pipe as bytes. Never returns.
+// Silences the child, limits its CPU time, solves, and writes the result to the pipe as bytes. Never returns. The parent alone holds the
+// pipe's other end: when the parent is killed, the write ends the child.
 [[noreturn]] void run_child(const LmiProblem& problem, const SdpOptions& options, int result_fd) {
   const int null_fd = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null_fd, standard);
-  for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT})
+  for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT, SIGPIPE})
     ::signal(fatal, SIG_DFL);
   const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit_s)) + 1;
   const rlimit cpu{seconds, seconds};
@@ -144,13 +145,16 @@ SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return failure(SdpStatus::kCrashed, std::string("no pipe: ") + std::generic_category().message(errno));
-  const UniqueFd read_end(ends[0]);
+  UniqueFd read_end(ends[0]);
   UniqueFd write_end(ends[1]);
   const pid_t child = ::fork();
   if (child < 0)
     return failure(SdpStatus::kCrashed,
                    std::string("no process for the solver: ") + std::generic_category().message(errno));
-  if (child == 0) run_child(problem, options, write_end.get());
+  if (child == 0) {
+    read_end.reset();
+    run_child(problem, options, write_end.get());
+  }
   write_end.reset();
   std::vector<double> answer(sdpa_answer_size(problem));
   const ReadOutcome outcome = read_answer(read_end.get(), options.time_limit_s, answer);

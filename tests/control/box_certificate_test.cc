@@ -51,7 +51,7 @@ TEST(BoxCertificate, RefusesATableWithAnotherLead) {
   GainTable rigid = testing::shipped_table("csf-17-50-delays");
   rigid.box = {};
   rigid.box.lead_periods = 2.0;
-  EXPECT_NE(find_defect(rigid).value_or("").find("rigid box must be 0"), std::string::npos);
+  EXPECT_NE(find_defect(rigid).value_or("").find("rigid box"), std::string::npos);
 }
 
 // Not by the proof's own interpolation or matrices: the loop written down by hand, sampled in 100 steps, at any place of the box.

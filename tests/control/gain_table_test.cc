@@ -13,6 +13,7 @@
 
 #include "control/table/gain_table_json.h"
 #include "tests/support/reference_joint.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -89,7 +90,7 @@ TEST(GainTable, HiddenContentBeyondTheCountsIsADefect) {
   EXPECT_NE(find_defect(table), std::nullopt);
   table = testing::shipped_table("c4");
   table.primary.has_integrator = 2;
-  EXPECT_NE(find_defect(table), std::nullopt);
+  EXPECT_NE(find_defect(table).value_or("").find("has_integrator = 2: must be 0 or 1"), std::string::npos);
   table = testing::shipped_table("c4");
   table.name.bytes.fill('x');
   EXPECT_NE(find_defect(table), std::nullopt) << "not terminated";
@@ -120,6 +121,19 @@ TEST(GainTable, OfWhateverBytesIsRefusedOrIsWhatItsFileSays) {
   }
   EXPECT_GT(kept, 100);
   EXPECT_LT(kept, 2000);
+}
+
+TEST(GainTable, FrictionIsJudgedBeforeADesignAndByItsFile) {
+  GainTable table = testing::shipped_table("c4");
+  EXPECT_NO_THROW(require_friction(table.friction, 34.0, "fit.json"));
+  table.friction.rules[1].friction.static_Nm = -1.0;
+  EXPECT_EQ(testing::refusal_of([&] { require_friction(table.friction, 34.0, "fit.json"); }),
+            "fit.json: friction.rules[1].static_Nm = -1: must be from 0 to 17, half of torque_limit_Nm");
+  table.friction.rules[1].width_C = 1e300;
+  EXPECT_NE(testing::refusal_of([&] {
+              require_friction(table.friction, 34.0, "fit.json");
+            }).find("fit.json: friction.rules[1].width_C"),
+            std::string::npos);
 }
 
 TEST(GainTable, AnEnumerationOutsideOfItsNamesIsADefect) {

@@ -28,7 +28,7 @@ class JointLoop {
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
 
-  /// Call it before the loop runs: `recorder` then records every cycle. It outlives this object.
+  /// Call it before the loop runs: `recorder`, which outlives this object, records every cycle.
   void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
 
   // Real-time thread.

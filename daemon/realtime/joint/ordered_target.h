@@ -78,7 +78,7 @@ class OrderedTarget {
   /// Ends a stream because of its velocities; shown until the next setpoint is accepted.
   void contradict() noexcept { stream_ = Stream::kContradicted; }
   bool contradicts() const noexcept { return stream_ == Stream::kContradicted; }
-  /// The controller's target `drive_rad` as a joint position; an ordered target to the bit, so that a client recognises its order.
+  /// The controller's target `drive_rad` as a joint position. An ordered target is returned exactly, so that a client recognises its order.
   double shown_rad(double drive_rad, const JointZero& zero) const noexcept {
     return drive_rad == drive_rad_ ? joint_rad_ : zero.to_joint_rad(drive_rad);
   }

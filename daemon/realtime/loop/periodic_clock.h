@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Generates the periods by absolute sleeps on CLOCK_MONOTONIC. Only this code reads a clock in the real-time thread. Real-time safe.
+// Generates the periods by absolute sleeps on CLOCK_MONOTONIC. The loop reads no other clock. Real-time safe.
 #pragma once
 
 #include <cstdint>
