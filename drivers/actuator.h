@@ -13,7 +13,7 @@ namespace strainwave {
 /// The power state of the drive.
 enum class DriveState : std::int32_t {
   kDisabled = 0,  ///< no torque; the joint is free
-  kEnabling = 1,  ///< was told to enable and is not ready yet
+  kEnabling = 1,  ///< has an order to enable and is not ready yet
   kEnabled = 2,   ///< torque commands take effect
   kFault = 3,     ///< the drive reports a fault; see ActuatorReading::fault
 };

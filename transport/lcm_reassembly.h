@@ -30,7 +30,7 @@ struct LcmSource {
 struct LcmMessage {
   std::string_view channel;
   std::span<const std::uint8_t> bytes;
-  std::uint32_t sequence = 0;  ///< number that the source gave to the message
+  std::uint32_t sequence = 0;  ///< number that the sender gave to the message
 };
 
 class LcmReassembly {
@@ -44,7 +44,7 @@ class LcmReassembly {
         0;  ///< datagrams that are not LCM's, and messages whose fragments do not fit together
     std::uint64_t too_long = 0;  ///< datagrams of messages with too many bytes or fragments
     std::uint64_t interrupted =
-        0;  ///< messages given up: the source began another one, or another source needed the slot
+        0;  ///< messages given up: the sender began another one, or another sender needed the slot
   };
 
   /// Room for messages of at most `largest_message_bytes`.

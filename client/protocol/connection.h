@@ -30,7 +30,7 @@ struct ReceivedMessage {
   const std::string& channel;
   std::span<const std::uint8_t> bytes;
   std::int64_t received_us = 0;  ///< since the epoch, by this computer's clock
-  LcmSource from = {};           ///< nobody with memq:// empty with memq://
+  LcmSource from = {};           ///< empty with memq://
 };
 
 class Connection;
@@ -126,7 +126,7 @@ class Connection {
   void keep(Waiting message);
 
   std::string url_;
-  std::unique_ptr<Network> network_;  ///< none with memq:// null with memq://
+  std::unique_ptr<Network> network_;  ///< null with memq://
   Subscription::Entries subscriptions_;
   std::deque<Waiting> waiting_;
   MissingMessages missing_;

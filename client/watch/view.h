@@ -61,7 +61,7 @@ std::string name_of(const WatchModel& model, const WatchedJoint& joint);
 /// Alarm: it has faulted, is silent, or two daemons use its channels. Warning: the state has a notice, or its temperature is not valid.
 Style style_of(const WatchedJoint& joint);
 
-/// The source of the temperature that schedules the gains.
+/// Which sensor gives the temperature that schedules the gains.
 std::string temperature_source(const WatchedJoint& joint);
 
 }  // namespace strainwave

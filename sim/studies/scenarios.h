@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scenarios of Zhao (2006), chapter 6: setpoints, temperature, duration and plant. docs/theory.md has the
-// values that the source leaves open. Offline.
+// values that the thesis leaves open. Offline.
 #pragma once
 
 #include <array>
