@@ -50,8 +50,7 @@ void ranged(Json& json, const std::string& key, Value& value, Range range) {
   if constexpr (std::is_arithmetic_v<Value>)
     json.require(range.holds(value), key, range.text());
   else
-    json.require(std::ranges::all_of(value, [&](double entry) { return range.holds(entry); }), key,
-                 range.text() + " each");
+    json.require(range.holds_all(value), key, range.text() + " each");
 }
 
 class JsonWriter {

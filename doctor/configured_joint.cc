@@ -11,8 +11,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr Range kNotNegative{0.0, 1e9};
-
 TorsionSpring read_spring(TomlSection& joint) {
   if (joint.has("gear")) {
     const Gear* gear = find_gear(joint.text("gear"));

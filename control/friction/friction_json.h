@@ -32,14 +32,14 @@ void fields(Json& json, FrictionLaw& law) {
 
 /// In SI. No joint has larger numbers, and arithmetic with smaller ones cannot overflow.
 inline constexpr double kMost = 1e15;
-inline constexpr Range kNotNegative{0.0, kMost};
+inline constexpr Range kZeroOrMore{0.0, kMost};
 inline constexpr Range kTemperature_C{-273.15, kMost};
 
 template <typename Json>
 void fields(Json& json, VelocityMemberships& velocity) {
-  ranged(json, "zero_center_rad_s", velocity.zero_center_rad_s, kNotNegative);
+  ranged(json, "zero_center_rad_s", velocity.zero_center_rad_s, kZeroOrMore);
   ranged(json, "zero_width_rad_s", velocity.zero_width_rad_s, kPositive);
-  ranged(json, "high_center_rad_s", velocity.high_center_rad_s, kNotNegative);
+  ranged(json, "high_center_rad_s", velocity.high_center_rad_s, kZeroOrMore);
   ranged(json, "high_width_rad_s", velocity.high_width_rad_s, kPositive);
 }
 

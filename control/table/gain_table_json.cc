@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/gain_table_json.h"
 
-#include <algorithm>
 #include <array>
 #include <span>
 
@@ -39,9 +38,9 @@ void fields(Json& json, PlantIdentity& plant) {
 
 template <typename Json>
 void fields(Json& json, CostWeights& weights) {
-  ranged(json, "integral", weights.integral, kNotNegative);
+  ranged(json, "integral", weights.integral, kZeroOrMore);
   ranged(json, "position", weights.position, kPositive);
-  ranged(json, "velocity", weights.velocity, kNotNegative);
+  ranged(json, "velocity", weights.velocity, kZeroOrMore);
   ranged(json, "torque", weights.torque, kPositive);
 }
 
@@ -55,14 +54,12 @@ void fields(Json& json, FeedbackGains& gains) {
   json.require((gains.weights.integral > 0.0) == has_integrator, "weights",
                "with an integral above 0 with an integrator, and 0 without");
   ranged(json, "decay_rate", gains.decay_rate, {1e-9, 1.0});
-  ranged(json, "cost_bound", gains.cost_bound, kNotNegative);
+  ranged(json, "cost_bound", gains.cost_bound, kZeroOrMore);
   json.list("rules", gains.rule_count, 1, kMaxRules, [&](auto& rule, std::size_t j) {
     ranged(rule, "F", gains.F[j], kAny);
     rule.matrix("P", gains.P[j], kMaxStates);
     const StateMatrix P = gains.lyapunov(static_cast<int>(j));
-    // NaN is refused as well, since it is not symmetric.
-    rule.require(std::ranges::all_of(gains.P[j], [](double entry) { return kAny.holds(entry); }), "P",
-                 kAny.text());
+    rule.require(kAny.holds_all(gains.P[j]), "P", kAny.text());
     rule.require(P == P.transpose(), "P", "symmetric");
     rule.require(has_integrator || (gains.F[j][0] == 0.0 && P.row(0).isZero(0.0)), "P",
                  "0, as F is, in the integral's row without an integrator");
@@ -102,7 +99,7 @@ void cell_fields(Json& json, const CertifiedBox& box, BoxCell& cell) {
   }
   const std::span<double> P = std::span(cell.P).first(box.entries_of(cell));
   json.numbers("P", P);
-  json.require(std::ranges::all_of(P, [](double entry) { return kAny.holds(entry); }), "P", kAny.text());
+  json.require(kAny.holds_all(P), "P", kAny.text());
 }
 
 }  // namespace
@@ -117,7 +114,7 @@ void fields(Json& json, CertifiedBox& box) {
     range_field(json, "motor_inertia_kgm2", box.motor_inertia_kgm2);
     range_field(json, "link_inertia_kgm2", box.link_inertia_kgm2);
     range_field(json, "stiffness_Nm_rad", box.stiffness_Nm_rad);
-    range_field(json, "damping_Nms_rad", box.damping_Nms_rad, kNotNegative);
+    range_field(json, "damping_Nms_rad", box.damping_Nms_rad, kZeroOrMore);
   }
   std::array delays{box.least_delay, box.most_delay};
   ranged(json, "delay_periods", delays, {0.0, kMaxBoxDelay});
@@ -152,7 +149,7 @@ void require_physical(Json& json, const std::string& path, const FuzzyFriction& 
     };
     require("static_Nm", static_Nm, {0.0, kMaxStaticShare * torque_limit_Nm}, ", half of torque_limit_Nm");
     require("coulomb_Nm", coulomb_Nm, {0.0, static_Nm}, ", static_Nm");
-    require("viscous_Nms_rad", viscous_Nms_rad, kNotNegative, "");
+    require("viscous_Nms_rad", viscous_Nms_rad, kZeroOrMore, "");
   }
 }
 
@@ -186,16 +183,15 @@ std::string to_json(const GainTable& table) {
 
 // The table is written and read back. What differs then is hidden: no key names it.
 std::optional<std::string> find_defect(const GainTable& table) {
-  if (table.primary.has_integrator != 0 && table.primary.has_integrator != 1)
-    return "primary.has_integrator = " + std::to_string(table.primary.has_integrator) + ": must be 0 or 1";
   if (table.format != kGainTableFormat)
     return "format = " + std::to_string(table.format) + ": this program reads format " +
            std::to_string(kGainTableFormat);
+  if (table.primary.has_integrator != 0 && table.primary.has_integrator != 1)
+    return "primary.has_integrator = " + std::to_string(table.primary.has_integrator) + ": must be 0 or 1";
   try {
     if (from_document<GainTable>(to_document(table), "") == table) return std::nullopt;
     return "holds a number where there must be 0: beyond a count, behind the end of a text, or of a spring "
-           "in a "
-           "rigid box (link_inertia_kgm2[1] = 0)";
+           "in a rigid box (link_inertia_kgm2[1] = 0)";
   } catch (const InputError& error) {
     return error.what();
   }

@@ -12,7 +12,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr Range kNotNegative{0.0, 1e9};
 constexpr Range kPhase_rad{-std::numbers::pi, std::numbers::pi};
 
 const Gear* read_gear(TomlSection& section, bool gear_sets_ratio, JointEffects& effects) {

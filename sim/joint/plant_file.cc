@@ -11,7 +11,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr Range kNotNegative{0.0, 1e9};
 constexpr Range kAnyTemperature_C{-273.15, 1e4};
 const std::vector<std::string> kBases = {"ideal", "limited", "realistic", "flexible"};
 
