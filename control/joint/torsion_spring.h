@@ -46,6 +46,14 @@ struct TorsionSpring {
     return std::copysign(angle, torque_Nm);
   }
 
+  /// Slope of that wind-up, rad/(N.m).
+  double compliance_rad_Nm(double torque_Nm) const noexcept {
+    const double torque = std::abs(torque_Nm);
+    return 1.0 / (torque < torque_1_Nm   ? stiffness_1_Nm_rad
+                  : torque < torque_2_Nm ? stiffness_2_Nm_rad
+                                         : stiffness_3_Nm_rad);
+  }
+
   /// Slope of the straight line from rest to `torque_Nm` > 0, N.m/rad.
   double secant_Nm_rad(double torque_Nm) const noexcept { return torque_Nm / angle_rad(torque_Nm); }
 };

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace strainwave {
 
@@ -36,7 +35,7 @@ double hardest_rad_s2(const MotionLimits& limits) noexcept {
 
 int whole_spread(const MotorPlannerConfig& c) noexcept {
   const int least = c.joint.rigid() ? 0 : kLeastSpread;
-  const int swing = std::clamp(static_cast<int>(std::lround(swing_periods(c))), least, 2 * kMaxMeanPeriods);
+  const int swing = std::clamp(static_cast<int>(std::ceil(swing_periods(c))), least, 2 * kMaxMeanPeriods);
   if (!c.jerk_limit_rad_s3) return swing;
   const double jerk_periods =
       4.0 * hardest_rad_s2(MotorPlanner::possible_limits(c)) / *c.jerk_limit_rad_s3 / c.period_s;
@@ -44,31 +43,6 @@ int whole_spread(const MotorPlannerConfig& c) noexcept {
 }
 
 }  // namespace
-
-SmoothWindUp::SmoothWindUp(const TorsionSpring& spring) noexcept
-    : far_rad_Nm_(1.0 / spring.stiffness_3_Nm_rad),
-      extra_rad_Nm_(1.0 / spring.stiffness_1_Nm_rad - far_rad_Nm_),
-      width_Nm_(0.0) {
-  // The angle that the softer slopes add far out: extra * width * pi / 2.
-  const double added_rad =
-      extra_rad_Nm_ * spring.torque_1_Nm +
-      (1.0 / spring.stiffness_2_Nm_rad - far_rad_Nm_) * (spring.torque_2_Nm - spring.torque_1_Nm);
-  if (extra_rad_Nm_ > 0.0 && added_rad > 0.0)
-    width_Nm_ = 2.0 * added_rad / (std::numbers::pi * extra_rad_Nm_);
-  else
-    extra_rad_Nm_ = 0.0;  // one slope, or a first slope that is not softer: only the last slope counts
-}
-
-double SmoothWindUp::angle_rad(double torque_Nm) const noexcept {
-  if (extra_rad_Nm_ == 0.0) return far_rad_Nm_ * torque_Nm;
-  return far_rad_Nm_ * torque_Nm + extra_rad_Nm_ * width_Nm_ * std::atan(torque_Nm / width_Nm_);
-}
-
-double SmoothWindUp::compliance_rad_Nm(double torque_Nm) const noexcept {
-  if (extra_rad_Nm_ == 0.0) return far_rad_Nm_;
-  const double scaled = torque_Nm / width_Nm_;
-  return far_rad_Nm_ + extra_rad_Nm_ / (1.0 + scaled * scaled);
-}
 
 MotionLimits MotorPlanner::possible_limits(const MotorPlannerConfig& config) noexcept {
   MotionLimits limits = config.motion;
@@ -81,7 +55,6 @@ MotionLimits MotorPlanner::possible_limits(const MotorPlannerConfig& config) noe
 
 MotorPlanner::MotorPlanner(const MotorPlannerConfig& config) noexcept
     : config_(config),
-      wind_up_(config.joint.spring),
       gains_(config.joint.rigid() ? LinkGains{}
                                   : config.joint.regulate(config.torque_limit_Nm, config.period_s)),
       spread_periods_(whole_spread(config)),
@@ -120,11 +93,9 @@ LinkState MotorPlanner::flat(const MotionPoint& link, double snap_rad_s4) const 
   const double transmitted_Nm = joint.link_inertia_kgm2 * link.acceleration_rad_s2 + held_Nm;
   const double rate_Nm_s = joint.link_inertia_kgm2 * link.jerk_rad_s3 + slope_Nm_rad * link.velocity_rad_s;
   const double change_Nm_s2 = joint.link_inertia_kgm2 * snap_rad_s4 + slope_Nm_rad * link.acceleration_rad_s2;
-  const double compliance = wind_up_.compliance_rad_Nm(transmitted_Nm);
+  const double compliance = joint.spring.compliance_rad_Nm(transmitted_Nm);
   const double speed_rad_s = compliance * (rate_Nm_s - joint.damping_Nms_rad * compliance * change_Nm_s2);
-  // Only the motion needs the smooth wind-up; gravity's wind-up follows the spring itself.
-  const double angle_rad = wind_up_.angle_rad(transmitted_Nm - joint.damping_Nms_rad * speed_rad_s) +
-                           joint.spring.angle_rad(held_Nm) - wind_up_.angle_rad(held_Nm);
+  const double angle_rad = joint.spring.angle_rad(transmitted_Nm - joint.damping_Nms_rad * speed_rad_s);
   return {link.position_rad, link.velocity_rad_s, link.position_rad + angle_rad,
           link.velocity_rad_s + speed_rad_s};
 }

@@ -16,7 +16,8 @@
 // Choice of tau: half-way through a step A of the acceleration, half of the step of torque, (Jm + Jl) A / 2, has been made. The wind-up
 // then needs Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl). Both add up to the whole step at
 //   tau = sqrt(8) / w,   w^2 = K (1/Jm + 1/Jl)
-// which is 0.45 periods of the free swing. A shorter tau needs more torque than the planned motion; a longer one takes longer.
+// which is 0.45 periods of the free swing. A shorter tau needs more torque than the planned motion; a longer one takes longer. So tau is
+// rounded up to whole periods.
 // A jerk limit j requires tau >= 4 A / j: two means of tau / 2 keep |jerk| <= 2 A / (tau / 2).
 //
 // A rigid joint has no wind-up: the jerk limit alone sets tau, and the model is exact.
@@ -64,20 +65,6 @@ struct MotorPlan {
   double wanted_acceleration_rad_s2 = 0.0;          ///< mean of the link's
 };
 
-/// The wind-up as a smooth function of the torque. Its compliance equals the first slope's at zero and the last slope's far out,
-/// where the angle is also the same. So the planned torque does not jump where the catalogue's slopes change.
-class SmoothWindUp {
- public:
-  explicit SmoothWindUp(const TorsionSpring& spring) noexcept;
-  double angle_rad(double torque_Nm) const noexcept;
-  double compliance_rad_Nm(double torque_Nm) const noexcept;
-
- private:
-  double far_rad_Nm_;    ///< compliance far out
-  double extra_rad_Nm_;  ///< additional compliance at zero torque
-  double width_Nm_;
-};
-
 class MotorPlanner {
  public:
   /// Not real-time safe.
@@ -122,7 +109,6 @@ class MotorPlanner {
   MotorPlan plan() noexcept;
 
   MotorPlannerConfig config_;
-  SmoothWindUp wind_up_;
   LinkGains gains_;
   int spread_periods_;
   MovingMean first_;

@@ -222,16 +222,5 @@ TEST(MotorPlanner, GoesOnFromAJointThatMoves) {
   }
 }
 
-TEST(SmoothWindUp, IsTheGearsFarOutAndSofterNearZero) {
-  const TorsionSpring spring{8100.0, 3.9, 11000.0, 12.0, 13000.0};
-  const SmoothWindUp smooth(spring);
-  EXPECT_NEAR(smooth.compliance_rad_Nm(0.0), 1.0 / 8100.0, 1e-12);
-  EXPECT_NEAR(smooth.angle_rad(400.0), spring.angle_rad(400.0), 2e-6);
-  for (double torque_Nm = -34.0; torque_Nm <= 34.0; torque_Nm += 0.5)
-    EXPECT_NEAR(smooth.angle_rad(torque_Nm), spring.angle_rad(torque_Nm), 8e-5) << torque_Nm;
-  const SmoothWindUp linear(TorsionSpring::linear(1e4));
-  EXPECT_NEAR(linear.angle_rad(-7.0), -7e-4, 1e-15);
-}
-
 }  // namespace
 }  // namespace strainwave

@@ -93,8 +93,8 @@ TEST(FlexibleStudy, ReachesItsGoalsOnTheGrid) {
   struct Goal {
     double step_rad, median, worst, overshoot_mrad;
   };
-  for (const Goal& goal : {Goal{0.001, 1.06, 4.0, 0.2}, Goal{0.01, 1.24, 1.3, 0.25},
-                           Goal{0.1, 1.13, 1.16, 0.2}, Goal{1.0, 1.05, 1.07, 0.25}}) {
+  for (const Goal& goal : {Goal{0.001, 1.06, 2.0, 0.1}, Goal{0.01, 1.25, 1.3, 0.25},
+                           Goal{0.1, 1.13, 1.16, 0.2}, Goal{1.0, 1.055, 1.07, 0.25}}) {
     const Of& found = by_step.at(goal.step_rad);
     EXPECT_LE(percentile_of(found.over_limit, 0.5), goal.median) << goal.step_rad;
     EXPECT_LE(percentile_of(found.over_limit, 1.0), goal.worst) << goal.step_rad;
