@@ -33,9 +33,8 @@ std::string conversion_of(const std::vector<std::string>& columns) {
 void refuse_other_separators(std::string_view header, const std::string& where) {
   const std::size_t separator = header.find_first_of(";\t");
   if (header.find(',') != std::string_view::npos || separator == std::string_view::npos) return;
-  throw InputError(
-      where + ": " + (header[separator] == ';' ? "semicolons" : "tabs") +
-      " stand between the fields: write commas there, and a decimal point in numbers, 0.5 for 0,5");
+  throw InputError(where + ": " + (header[separator] == ';' ? "semicolons" : "tabs") +
+                   " separate the fields: use commas, and a decimal point in numbers (0.5, not 0,5)");
 }
 
 std::vector<std::string> fields_of(std::string_view line) {
@@ -86,7 +85,7 @@ template <typename Field>
 std::size_t CsvRows<Field>::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found == columns.end())
-    throw InputError(source + ": column " + name + " is missing; there are " + joined(columns) +
+    throw InputError(source + ": column " + name + " is missing; the columns are " + joined(columns) +
                      conversion_of(columns));
   return static_cast<std::size_t>(found - columns.begin());
 }
@@ -106,7 +105,8 @@ template struct CsvRows<double>;
 
 CsvText parse_csv_text(std::string_view text, const std::string& source) {
   if (std::any_of(text.begin(), text.end(), is_no_text))
-    throw InputError(source + ": is not text, but a CSV file is: lines of fields with commas between them");
+    throw InputError(source +
+                     ": is not a text file; a CSV file has lines of text with commas between the fields");
   CsvText table;
   table.source = source;
   int number = 0;
@@ -128,7 +128,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
       throw InputError(where + ": has " + counted(fields.size(), "field") + ", the header has " +
                        std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")" +
                        (fields.size() > table.columns.size()
-                            ? "; does a number have a decimal comma? Write a decimal point, 0.5 for 0,5"
+                            ? "; does a number have a decimal comma? Write a decimal point (0.5, not 0,5)"
                             : ""));
     table.rows.push_back(std::move(fields));
     table.line_numbers.push_back(number);

@@ -20,7 +20,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void fail(int error) {
   throw std::runtime_error("gnuplot cannot be run (" + std::generic_category().message(error) +
-                           "): it is needed to draw; install the package gnuplot-nox");
+                           "): plots need it; install the package gnuplot-nox");
 }
 
 File temporary_file() {

@@ -39,16 +39,16 @@ std::string malformed(std::string_view text, const std::string& source, std::siz
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return source + ": is empty: JSON is expected, an object in braces";
   if (text[first] != '{')
-    return source + ": is no JSON: begins with " + shown(first) + ", where JSON of ours begins with {";
+    return source + ": not valid JSON: the file begins with " + shown(first) + ", but must begin with {";
   const std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
   const std::string_view before = text.substr(0, at);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::string place = source + ":" + std::to_string(line) + ": not valid JSON: ";
-  if (at == text.size()) return place + "ends before everything that was opened is closed";
+  if (at == text.size()) return place + "the file ends before every brace, bracket and quote is closed";
   const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
-  return place + "column " + std::to_string(at - line_begin + 1) + " of " + shown(line_begin) +
-         " is not what JSON has there" +
-         (stopped_behind_comma(text, at) ? ": numbers have a decimal point, 0.5 for 0,5" : "");
+  return place + "unexpected character in column " + std::to_string(at - line_begin + 1) + " of " +
+         shown(line_begin) +
+         (stopped_behind_comma(text, at) ? ": numbers have a decimal point (0.5, not 0,5)" : "");
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ ordered_json parse_strict_json(std::string_view text, const std::string& source)
   std::vector<std::set<std::string>> open_objects;
   const auto refuse_repeated_keys = [&](int depth, ordered_json::parse_event_t event, ordered_json& parsed) {
     if (depth > kDeepest)
-      throw InputError(source + ": lists and objects lie in each other more than " +
-                       std::to_string(kDeepest) + " deep: no file of ours does");
+      throw InputError(source + ": lists and objects are nested deeper than the allowed " +
+                       std::to_string(kDeepest) + " levels");
     if (event == ordered_json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == ordered_json::parse_event_t::object_end) open_objects.pop_back();
     if (event == ordered_json::parse_event_t::key) {

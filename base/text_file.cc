@@ -41,7 +41,7 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
   for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
     const std::filesystem::path next = std::filesystem::read_symlink(target, error);
     if (error || links >= kMostLinks)
-      throw InputError(path.string() + ": is a link that leads nowhere: name a file");
+      throw InputError(path.string() + ": is a symbolic link that cannot be followed: name a file");
     target = target.parent_path() / next;
   }
   return target;
@@ -74,7 +74,7 @@ class TemporaryFile {
     ::umask(mask);
     if (::fchmod(descriptor_.get(), 0666 & ~mask) != 0 || ::fsync(descriptor_.get()) != 0)
       fail_to_write(target_, errno);
-    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot replace", errno);
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot be replaced", errno);
     renamed_ = true;
     sync_folder();
   }
@@ -105,7 +105,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, "cannot be read", errno);
   if (std::filesystem::file_size(path, error) > kMaxFileBytes) {
-    throw InputError(path.string() + ": is larger than 128 MiB: not a file of this program");
+    throw InputError(path.string() + ": is larger than 128 MiB, the most that this program reads");
   }
   std::ostringstream text;
   text << file.rdbuf();
@@ -122,10 +122,10 @@ void write_text_file(const std::filesystem::path& path, std::string_view text) {
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error))
-    throw InputError(path.string() + ": is a file: name a folder, which is made where it is not there");
+    throw InputError(path.string() + ": is a file: name a folder; the program makes it if it is missing");
   std::filesystem::create_directories(path, error);
   if (error)
-    throw InputError(path.string() + ": cannot be made: " + error.message() + ": name a folder that can");
+    throw InputError(path.string() + ": cannot be made: " + error.message() + ": name another folder");
 }
 
 }  // namespace strainwave

@@ -65,8 +65,8 @@ void refuse_deep_nesting(std::string_view text, const std::string& file) {
     else
       depth.see(text.front());
     if (std::max(depth.dots, depth.brackets) > kDeepestToml)
-      throw InputError(file + ":" + std::to_string(line) + ": tables lie in each other more than " +
-                       std::to_string(kDeepestToml) + " deep: no file of ours does");
+      throw InputError(file + ":" + std::to_string(line) + ": tables are nested deeper than the allowed " +
+                       std::to_string(kDeepestToml) + " levels");
     line +=
         static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length), '\n'));
     text.remove_prefix(length);

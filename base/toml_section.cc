@@ -112,7 +112,7 @@ TomlSection TomlSection::parse(std::string_view text, const std::string& file) {
     const auto line = error.source().begin.line;
     throw InputError(file + ":" + std::to_string(line) + ": not valid TOML: " +
                      (has_decimal_comma(text, line)
-                          ? "a comma in a number: TOML has a decimal point, 0.5 for 0,5"
+                          ? "a comma in a number: TOML has a decimal point (0.5, not 0,5)"
                           : printable(error.description())));
   }
 }
@@ -229,7 +229,7 @@ std::string TomlSection::choice(std::string_view key, const std::vector<std::str
   const std::optional<std::string> value = node->value_exact<std::string>();
   if (value && std::find(allowed.begin(), allowed.end(), *value) != allowed.end()) return *value;
   const std::string* nearest = value ? nearest_word(*value, allowed) : nullptr;
-  refuse(key, "allowed are " + join(allowed, "\"") +
+  refuse(key, "one of " + join(allowed, "\"") + " is allowed" +
                   (nearest != nullptr ? "; did you mean \"" + *nearest + "\"?" : ""));
   return allowed.front();
 }
@@ -264,7 +264,7 @@ TomlSection TomlSection::section_or_empty(std::string_view key) {
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {
-  const std::string what = "a table, or several, each begun with [[" + full_name(key) + "]],";
+  const std::string what = "at least one table, written [[" + full_name(key) + "]],";
   const toml::node* node = Reader::require(*this, key, what);
   if (node == nullptr) throw_errors();
   const toml::array* array = node->as_array();
@@ -285,7 +285,7 @@ void TomlSection::refuse_unknown_keys() const {
     if (asked_.contains(name)) continue;
     const std::string* nearest = nearest_word(name, known);
     const std::string hint =
-        nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are " + join(known, "") + ".";
+        nearest != nullptr ? "did you mean " + *nearest + "?" : "the keys here are " + join(known, "") + ".";
     refuse(name, "unknown key; " + hint + " Physical quantities carry their unit in the key." +
                      unit_conversion(name));
   }

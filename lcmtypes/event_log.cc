@@ -35,7 +35,7 @@ EventLogReader::EventLogReader(const std::filesystem::path& file)
   if (std::filesystem::is_directory(file, error)) throw InputError(name_ + ": is a folder, not a file");
   if (!file_) throw InputError(name_ + ": cannot be read: is it there, and may you read it?");
   size_ = std::filesystem::file_size(file, error);
-  if (error) throw InputError(name_ + ": is no ordinary file: copy it into one first");
+  if (error) throw InputError(name_ + ": is not a regular file: copy it to one first");
 }
 
 /// Returns `count` bytes from `offset` on, or fewer at the end of the file. They are valid until the next call.
@@ -107,12 +107,10 @@ void EventLogReader::read_body(const Header& header, LogEvent& event) {
 
 void EventLogReader::refuse_what_is_no_log() {
   if (bytes_at(0, kMcapMagic.size()) == kMcapMagic)
-    throw InputError(
-        name_ +
-        ": this is an MCAP file, which viewers read and nothing turns back; give the log that it "
-        "was exported from");
-  throw InputError(name_ + ": no event begins in its " + std::to_string(size_) +
-                   " bytes; an LCM event log is expected, as strainwavectl record and lcm-logger write it");
+    throw InputError(name_ +
+                     ": is an MCAP file for viewers: give the LCM event log from which it was exported");
+  throw InputError(name_ + ": is not an LCM event log: its " + std::to_string(size_) +
+                   " bytes have no event; give a log of strainwavectl record or lcm-logger");
 }
 
 bool EventLogReader::next(LogEvent& event) {
@@ -144,8 +142,8 @@ void require_undamaged(const EventLogReader& reader, const std::filesystem::path
   if (damage.places == 0) return;
   throw InputError(file.string() + ": at byte " + std::to_string(damage.first_byte) + ": " +
                    std::to_string(damage.skipped_bytes) +
-                   " bytes are damaged, so that events may be missing: record it again (strainwavectl export "
-                   "still reads the others)");
+                   " bytes are damaged, and events may be missing: record it again (strainwavectl export "
+                   "still reads the other events)");
 }
 
 }  // namespace strainwave

@@ -110,7 +110,7 @@ AuthorizedKey parse_public_line(std::string_view line) {
   AuthorizedKey key;
   key.key.bytes = decode_base64(take_word(line));
   if (!key.key.is_valid())
-    throw InputError("these 32 bytes are no Ed25519 public key: copy the whole line again");
+    throw InputError("these 32 bytes are not an Ed25519 public key: copy the whole line again");
   const auto [role, comment] = parse_rest(line);
   key.role = role;
   key.comment = comment;

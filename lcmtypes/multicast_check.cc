@@ -103,7 +103,8 @@ std::optional<std::string> find_option_defect(std::string_view option) {
   }
   if (option.starts_with(kReceiveBuffer) && whole_number(option.substr(kReceiveBuffer.size())) > 0)
     return std::nullopt;
-  return "'" + std::string(option) + "' is not an option of LCM's: ttl=N and recv_buf_size=BYTES are";
+  return "'" + std::string(option) +
+         "' is not a valid option of LCM: ttl=N and recv_buf_size=BYTES (above 0) are allowed";
 }
 
 }  // namespace
@@ -122,8 +123,8 @@ std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url) {
 std::optional<std::string> find_udpm_defect(std::string_view lcm_url) {
   const std::optional<MulticastAddress> address = parse_udpm_url(lcm_url);
   if (!address)
-    return "'" + std::string(lcm_url) + "' is not of the kind udpm://GROUP:PORT?ttl=N; the usual URL is " +
-           kUsualLcmUrl;
+    return "'" + std::string(lcm_url) +
+           "' does not have the form udpm://GROUP:PORT?ttl=N; the usual URL is " + kUsualLcmUrl;
   in_addr group{};
   if (::inet_pton(AF_INET, address->group.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
     return "'" + address->group +

@@ -104,7 +104,7 @@ std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
   if (no_command) {
     const std::string hint = suggestion(left.front(), commands);
     return "'" + left.front() + "' is not a command" +
-           (hint.empty() ? "; there are " + list(commands) : hint);
+           (hint.empty() ? "; the commands are " + list(commands) : hint);
   }
   std::string words;
   for (const std::string& word : left) words += " '" + word + "'";
@@ -170,7 +170,7 @@ std::string explain_number(const std::string& message) {
   if (error == std::errc::invalid_argument || end != given.data() + given.size())
     return "a number is allowed";
   if (given.find_first_not_of("-0123456789") != std::string_view::npos) return "a whole number is allowed";
-  return value < 0.0 ? "a number from 0 on is allowed" : "a smaller number is allowed";
+  return value < 0.0 ? "a number of 0 or more is allowed" : "a smaller number is allowed";
 }
 
 /// Explains a parse error in one sentence without line feeds.

@@ -93,8 +93,8 @@ std::string man_see_also(const std::vector<std::string>& pages) {
 const Manual::Entries& exit_statuses() {
   static const Manual::Entries kStatuses{
       {"0", "done"},
-      {"1", "tried, and refused or not reached; the reason is printed"},
-      {"2", "what was given makes no sense: the command line, or a file"},
+      {"1", "the program tried, but was refused or did not reach its aim; it prints the reason"},
+      {"2", "the command line or a file is wrong"},
       {"3", "no answer: no daemon, no such joint, no acknowledgement in time, no LCM on this PC"},
       {"130", "interrupted while waiting"}};
   return kStatuses;

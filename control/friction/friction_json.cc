@@ -18,7 +18,7 @@ FrictionLaw read_friction_law(const std::filesystem::path& path, double gear_rat
                      "must be the joint's, " + number_text(gear_ratio) + ": fit with --gear-ratio " +
                          number_text(gear_ratio));
   if (!object.has("exponential"))
-    throw InputError(source + ": has no law: fit with strainwave-design fit --model both");
+    throw InputError(source + ": has no friction law: fit with strainwave-design fit --model both");
   JsonReader reader(object.object("exponential"));
   FrictionLaw law;
   fields(reader, law);

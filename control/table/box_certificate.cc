@@ -157,11 +157,10 @@ std::optional<std::string> find_outside_box(const GainTable& table, const std::o
                                             int delay_periods) {
   const CertifiedBox& box = table.box;
   if (box.rigid() && link)
-    return "the table is of a rigid joint: a flexible joint takes one that is certified on "
-           "it, from "
-           "strainwave-design gains --gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
+    return "the table is for a rigid joint: a flexible joint needs a table of strainwave-design gains "
+           "--gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
   if (!box.rigid() && !link)
-    return "the table is of a flexible joint: a rigid joint takes one from strainwave-design gains "
+    return "the table is for a flexible joint: a rigid joint needs a table of strainwave-design gains "
            "--inertia_kgm2 without --load-inertia_kgm2";
   if (link)
     if (auto outside_spring = find_spring_outside(box, *link)) return outside_spring;

@@ -52,7 +52,7 @@ void fields(Json& json, FeedbackGains& gains) {
   gains.has_integrator = has_integrator ? 1 : 0;
   json("weights", gains.weights);
   json.require((gains.weights.integral > 0.0) == has_integrator, "weights",
-               "with an integral above 0 with an integrator, and 0 without");
+               "with integral above 0 if has_integrator is true, and 0 otherwise");
   ranged(json, "decay_rate", gains.decay_rate, {1e-9, 1.0});
   ranged(json, "cost_bound", gains.cost_bound, kZeroOrMore);
   json.list("rules", gains.rule_count, 1, kMaxRules, [&](auto& rule, std::size_t j) {
@@ -62,7 +62,7 @@ void fields(Json& json, FeedbackGains& gains) {
     rule.require(kAny.holds_all(gains.P[j]), "P", kAny.text());
     rule.require(P == P.transpose(), "P", "symmetric");
     rule.require(has_integrator || (gains.F[j][0] == 0.0 && P.row(0).isZero(0.0)), "P",
-                 "0, as F is, in the integral's row without an integrator");
+                 "0 in the integral's row without an integrator, like F");
   });
   const bool scheduled = gains.scheduled();
   const char* const expected = has_integrator ? (scheduled ? "C4" : "C3") : (scheduled ? "C2" : "C1");
@@ -85,7 +85,7 @@ template <typename Json>
 void range_field(Json& json, const std::string& key, BoxRange& range, Range allowed = kPositive) {
   std::array ends{range.from, range.to};
   ranged(json, key, ends, allowed);
-  json.require(ends[0] <= ends[1], key, "from the smaller to the larger");
+  json.require(ends[0] <= ends[1], key, "in rising order");
   range = {ends[0], ends[1]};
 }
 
@@ -118,7 +118,7 @@ void fields(Json& json, CertifiedBox& box) {
   }
   std::array delays{box.least_delay, box.most_delay};
   ranged(json, "delay_periods", delays, {0.0, kMaxBoxDelay});
-  json.require(delays[0] <= delays[1], "delay_periods", "from the smaller to the larger");
+  json.require(delays[0] <= delays[1], "delay_periods", "in rising order");
   box.least_delay = delays[0];
   box.most_delay = delays[1];
   if (spring) {
@@ -190,8 +190,8 @@ std::optional<std::string> find_defect(const GainTable& table) {
     return "primary.has_integrator = " + std::to_string(table.primary.has_integrator) + ": must be 0 or 1";
   try {
     if (from_document<GainTable>(to_document(table), "") == table) return std::nullopt;
-    return "holds a number where there must be 0: beyond a count, behind the end of a text, or of a spring "
-           "in a rigid box (link_inertia_kgm2[1] = 0)";
+    return "an unused place must be 0: beyond a count, after the end of a text, or of a spring in a rigid "
+           "box (link_inertia_kgm2[1] = 0)";
   } catch (const InputError& error) {
     return error.what();
   }

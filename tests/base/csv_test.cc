@@ -47,7 +47,7 @@ TEST(Csv, SaysHowToConvertAColumnInAnotherUnit) {
 
 TEST(Csv, SaysOfWhatIsNoTextThatItIsNone) {
   const std::string words =
-      "file.csv: is not text, but a CSV file is: lines of fields with commas between them";
+      "file.csv: is not a text file; a CSV file has lines of text with commas between the fields";
   EXPECT_EQ(message_of(std::string("\x7f"
                                    "ELF\0,\n1,2\n",
                                    11)),

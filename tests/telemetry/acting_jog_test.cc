@@ -123,7 +123,7 @@ TEST_F(ActingTest, SendsNoSampleBeforeTheFirstIsAcceptedAndNoneAfterARefusal) {
   const std::size_t sent = sent_.size();
   tick(0.1);
   EXPECT_EQ(sent_.size(), sent) << "nor a hold, which would stop the joint's new owner";
-  EXPECT_EQ(said(kTab)["text"], "SW.elbow: jog ended: refused, another client has the joint");
+  EXPECT_EQ(said(kTab)["text"], "SW.elbow: jog ended: refused, another client owns the joint");
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST_F(ActingTest, SignsAnOrderOfAPageThatShowedTheTokenAndQuotesWhatThePageSaw)
       << "not the latest challenge: it must come from the page";
   EXPECT_TRUE(signed_by_key(sent_.back()));
   acknowledge(Reason::kNotOwner);
-  EXPECT_EQ(said(kTab)["text"], "SW.elbow: enable: refused, another client has the joint");
+  EXPECT_EQ(said(kTab)["text"], "SW.elbow: enable: refused, another client owns the joint");
   EXPECT_EQ(said(kTab)["refused"], true);
 }
 

@@ -153,7 +153,7 @@ TEST_F(ConfigTest, NamesTheLineOfMalformedToml) {
 
 TEST_F(ConfigTest, NamesADecimalCommaAndTakesNoOtherCommaForOne) {
   expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = 0,089"),
-                  {"c.toml:", "decimal point", "0.5 for 0,5"});
+                  {"c.toml:", "decimal point", "0.5, not 0,5"});
   EXPECT_EQ(error_after("prefix = \"LAB\"", "prefix = LAB # 1,2").find("decimal"), std::string::npos);
 }
 
