@@ -27,7 +27,7 @@ void set_aside(const std::filesystem::path& path) {
   if (error)
     spdlog::warn("{}: cannot be renamed: {}", path.string(), error.message());
   else
-    spdlog::warn("{}: set aside as {}", path.string(), aside.string());
+    spdlog::warn("{}: renamed to {}", path.string(), aside.string());
 }
 
 /// Returns the contents of a joint's file, or nothing if it is missing, damaged, or for another joint or other rules.
@@ -77,7 +77,7 @@ void FrictionKeeper::restore(std::size_t joint, const FuzzyFriction& rules, Join
   loop.joint().law.restore({kept->scale, 0.0},
                            {.learned_C = kept->learned_C, .learned_ns = now_ns - 1000 * age_us});
   mine.kept = kept->scale;
-  spdlog::info("{}: friction as it was learned at {:.1f} degC, {} h ago", mine.name, kept->learned_C,
+  spdlog::info("{}: using the friction learned at {:.1f} degC, {} h ago", mine.name, kept->learned_C,
                age_us / 3'600'000'000);
 }
 
@@ -115,11 +115,11 @@ void FrictionKeeper::log_difference(Joint& joint, std::int64_t now_ns) {
   std::int64_t suppressed = 0;
   if (!difference_log_.allow(now_ns, suppressed)) return;
   if (differs)
-    spdlog::warn("{}: {}: {:.2f} times of it at {:.1f} degC, see {}", joint.name,
+    spdlog::warn("{}: {}: {:.2f} times the table's at {:.1f} degC, see {}", joint.name,
                  to_text(Notice::kFrictionDiffers), state.friction_factor, state.temperature_used_C,
                  configuration_key(Notice::kFrictionDiffers));
   else
-    spdlog::info("{}: friction is near the table's again: {:.2f} times of it at {:.1f} degC", joint.name,
+    spdlog::info("{}: friction is near the table's again: {:.2f} times it at {:.1f} degC", joint.name,
                  state.friction_factor, state.temperature_used_C);
 }
 
@@ -160,7 +160,7 @@ void FrictionKeeper::write(const std::string& joint, const std::optional<KeptFri
     failed_ = false;
   } catch (const std::exception& error) {
     if (!std::exchange(failed_, true))
-      spdlog::warn("{}: learned friction is not kept: {}", joint, error.what());
+      spdlog::warn("{}: learned friction cannot be saved: {}", joint, error.what());
   }
 }
 

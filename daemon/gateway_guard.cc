@@ -77,7 +77,7 @@ void GatewayGuard::restart(std::int64_t now_ns) {
 void GatewayGuard::end_hung(std::int64_t now_ns) {
   if (!pulse_.hangs(process_.started_ns(), count(inbound_.turns), now_ns) || !process_.running()) return;
   spdlog::error(
-      "the gateway has done nothing for {} s: ending it; what was sent to it meanwhile is lost, stops too",
+      "the gateway has done nothing for {} s: ending it; messages and stops sent to it meanwhile are lost",
       pulse_.patience_s());
   process_.kill();
 }
@@ -92,7 +92,7 @@ void GatewayGuard::log_dropped_datagrams(std::int64_t now_ns) {
   if (dropped == dropped_seen_ || !dropped_log_.allow(now_ns, suppressed)) return;
   dropped_seen_ = dropped;
   spdlog::warn(
-      "dropped by the gateway since its start: {}, {} too long, {} with missing fragments, {} too many at "
+      "the gateway has dropped since its start: {}, {} too long, {} with missing fragments, {} too many at "
       "once",
       counted(malformed, "malformed datagram"), too_long, counted(interrupted, "message"),
       counted(crowded_out, "message"));
@@ -102,7 +102,7 @@ void GatewayGuard::log_deafness() {
   const std::uint64_t deaf = count(inbound_.deaf);
   if (deaf != deaf_seen_)
     spdlog::error(
-        "what the gateway publishes does not come back: the network's adapter or route was removed or "
+        "the gateway does not receive its own messages: the network's adapter or route was removed or "
         "changed. No command and no stop reaches the daemon until a new gateway has joined the group");
   deaf_seen_ = deaf;
 }

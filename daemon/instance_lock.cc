@@ -56,13 +56,13 @@ fs::path lock_directory() {
                      std::generic_category().message(errno) + "; set RUNTIME_DIRECTORY to another");
   struct stat status {};
   if (::lstat(directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
-    throw InputError(directory.string() + ": is no directory, but locks belong there");
+    throw InputError(directory.string() + ": is not a directory for locks: set RUNTIME_DIRECTORY to another");
   const bool somebody_elses = ::geteuid() != 0 && status.st_uid != ::geteuid();
   if (somebody_elses || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
     throw InputError(
         directory.string() +
-        ": others may write the directory for locks, and keep this daemon from starting: it must belong to "
-        "the user that runs strainwaved, mode 0755 or less");
+        ": other users may write this directory for locks, and keep the daemon from starting: it must belong "
+        "to the user that runs strainwaved, with mode 0755 or less");
   return directory;
 }
 

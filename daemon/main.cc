@@ -43,16 +43,14 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--check-data-sheet", arguments.data_sheet,
       "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and exit");
-  CLI::Option* const commission =
-      app.add_option("--commission", arguments.commissioned,
-                     "move this joint inside its limits to learn what it is, and exit");
+  CLI::Option* const commission = app.add_option("--commission", arguments.commissioned,
+                                                 "move this joint inside its limits to measure it, and exit");
   CLI::Option* const out =
-      app.add_option("--out", arguments.directory, "folder for commission.json, what --commission found");
+      app.add_option("--out", arguments.directory, "folder for commission.json, the result of --commission");
   commission->needs(out);
   out->needs(commission);
-  app.add_option(
-      "--gateway-socket", arguments.gateway_socket,
-      "let the service manager start the gateway, as a user of its own, by a connection to this socket");
+  app.add_option("--gateway-socket", arguments.gateway_socket,
+                 "socket of the service manager, which starts the gateway as a user of its own");
 }
 
 ExitStatus as_status(bool good) {
@@ -103,7 +101,7 @@ int main(int argc, char** argv) {
                  {"/usr/share/doc/strainwave/config/reference.toml", "every key of a configuration"}},
        .examples = {{"strainwaved --config strainwaved.toml --check", "whether it would start, and why not"},
                     {"strainwaved --config strainwaved.toml --commission elbow --out elbow",
-                     "measure the joint elbow; a key ends it, and a later run goes on"},
+                     "measure the joint elbow; a key ends the run, and a later run continues"},
                     {"strainwaved --config strainwaved.toml",
                      "run until a signal; every joint comes to rest before the end"}},
        .see_also = {"strainwavectl(1)", "strainwave-telemetry(8)", "strainwave-design(1)"}});

@@ -19,7 +19,7 @@ namespace {
 
 void tell_table(const JointConfig& joint, const std::optional<InitialTable>& initial, std::ostream& out) {
   if (!initial) {
-    out << joint.name << ": no table: it can be enabled once one is loaded\n";
+    out << joint.name << ": no gain table: load one before enable\n";
     return;
   }
   for (const std::string& doubt : initial->doubts) out << "warning: " << doubt << '\n';

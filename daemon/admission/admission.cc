@@ -73,12 +73,12 @@ bool Admission::repeats(const WireMessage& message, const Requester& requester) 
 
 std::optional<Verdict> Admission::check_envelope(const WireMessage& message, const Envelope& envelope,
                                                  Requester& requester) {
-  if (ending_) return refuse(requester, Reason::kEnding, "the daemon is ending: only stops are obeyed");
+  if (ending_) return refuse(requester, Reason::kEnding, "the daemon is ending: it obeys only stops");
   if (envelope.session_id != session_id_)
     return refuse(requester, Reason::kWrongSession,
-                  "the message is meant for session " + std::to_string(envelope.session_id) +
-                      ", this daemon's is " + std::to_string(session_id_) +
-                      " (session_id on the STATE channel): strainwaved has restarted since. See what the "
+                  "the message names session " + std::to_string(envelope.session_id) +
+                      ", but this daemon has session " + std::to_string(session_id_) +
+                      " (session_id on the STATE channel): strainwaved has restarted. See what the "
                       "joint does, then send the command again");
   if (auto verdict = check_fresh(message, envelope.challenge, requester)) return verdict;
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
@@ -90,10 +90,10 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
   if (challenges_.expiry_cycle(challenge) < 0) {
     // Some orders take longer than an order's lifetime, such as the proof of a table; clients repeat them meanwhile.
     if (repeats(message, requester)) return repeat(requester);
-    return refuse(
-        requester, Reason::kTooOld,
-        "the command quotes a challenge that the STATE channel has not carried for about a second: it was "
-        "delayed on its way, or made from an old state; send it again");
+    return refuse(requester, Reason::kTooOld,
+                  "the command quotes a challenge that left the STATE channel more than about a second ago: "
+                  "the network "
+                  "delayed the command, or its sender used an old state; send it again");
   }
   const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
   switch (challenges_.since(challenge, requester.joint, order)) {
@@ -102,8 +102,8 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     case Since::kOwnStop:
       return refuse(
           requester, Reason::kTooOld,
-          "the command quotes a challenge from before a stop that its sender gave, or from before a "
-          "fault: send it again, made from the next state");
+          "the command quotes a challenge from before a fault, or from before a stop by the same sender: "
+          "send it again with the challenge of the next state");
     case Since::kOthersStop:
       break;
   }
@@ -123,23 +123,23 @@ std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role 
                                                FairShare& verifications) {
   if (is_unsigned(payload(message))) {
     if (!security_.unsigned_allowed)
-      return refuse(requester, Reason::kUnsigned,
-                    "this daemon obeys signed orders only: give a key (strainwavectl --key FILE, the key of "
-                    "a Joint in Python and "
-                    "C++, or STRAINWAVE_KEY); strainwavectl keygen --help tells how one is made");
+      return refuse(
+          requester, Reason::kUnsigned,
+          "this daemon obeys only signed orders: give a key (strainwavectl --key FILE, the key of a Joint in "
+          "Python and C++, or STRAINWAVE_KEY); strainwavectl keygen --help shows how to make one");
     return check_sequence(unsigned_sequences_, requester.sender_id, requester);
   }
   const auto key = security_.keys.find(key_id_of(payload(message)));
   if (!key)
     return refuse(
         requester, Reason::kBadSignature,
-        "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
+        "the key of this command is not in this daemon's security.authorized_keys: add its public line there "
         "and start the daemon again");
   if (!verifications.available(message.source, now_ns_))
     return refuse(requester, Reason::kBusy,
-                  "more forged or repeated orders than the " +
+                  "too many forged or repeated orders: the daemon verifies at most " +
                       std::to_string(static_cast<int>(kWastedVerificationsPer_s)) +
-                      " a second that are verified: try again");
+                      " of them a second; try again");
   auto verdict = check_signed(message, *key, needed, requester);
   if (verdict) {
     verifications.take(message.source, now_ns_);
@@ -173,10 +173,11 @@ std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, std::in
     return std::nullopt;
   }
   requester.last_sequence = memory.last(identity);
-  Verdict verdict = refuse(requester, Reason::kOldSequence,
-                           "sequence " + std::to_string(requester.sequence) +
-                               " does not rise above the last of this key for this joint, " +
-                               std::to_string(requester.last_sequence) + ": send above it");
+  Verdict verdict =
+      refuse(requester, Reason::kOldSequence,
+             "sequence " + std::to_string(requester.sequence) + " is not above " +
+                 std::to_string(requester.last_sequence) +
+                 ", the last of this key (unsigned: of this sender) for this joint: send a larger one");
   if (judgement == SequenceMemory::Judgement::kRepeat) verdict.kind = Verdict::Kind::kRepeat;
   return verdict;
 }
@@ -190,9 +191,9 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   text << "sender " << owner.sender_id;
   if (owner.key >= 0)
     text << " (key of " << security_.keys[static_cast<std::size_t>(owner.key)].comment << ")";
-  text << " owns " << joints_[requester.joint].name << " until it gives no command for " << security_.lease_s
-       << " s (security.lease_s) or releases it; an engineer's key takes it over. A stop or hold is always "
-          "possible";
+  text << " owns " << joints_[requester.joint].name
+       << ". Its lease ends when it releases the joint or gives no command for " << security_.lease_s
+       << " s (security.lease_s). An engineer's key can take over; every client may stop or hold";
   return refuse(requester, Reason::kNotOwner, text.str());
 }
 
@@ -212,11 +213,10 @@ Verdict Admission::change_owner(Action action, Requester requester) {
   requester.takes_over = action == Action::kTakeOver;
   if (requester.takes_over) return pass(requester, OrderKind::kEndStream, 0);
   if (!ownership_.release(requester.joint, {requester.key, requester.sender_id}, now_ns_))
-    return refuse(
-        requester, Reason::kNotOwner,
-        ownership_.owner_id(requester.joint, now_ns_) == 0
-            ? "the joint has no owner, its lease has ended or it was released: there is nothing to do"
-            : "only the owner of the joint can release it");
+    return refuse(requester, Reason::kNotOwner,
+                  ownership_.owner_id(requester.joint, now_ns_) == 0
+                      ? "the joint has no owner: the lease has ended, or its owner has released it"
+                      : "only the owner of the joint can release it");
   Verdict verdict;
   verdict.kind = Verdict::Kind::kDone;
   verdict.requester = requester;

@@ -49,11 +49,12 @@ std::optional<std::string> complaint_about_motion(const setpoint_v1& setpoint) {
     text << "derivatives = " << setpoint.derivatives
          << ": 0, 1 (velocity) or 2 (acceleration, too) is allowed";
   else if (setpoint.stream_id == 0 && (setpoint.derivatives != 0 || setpoint.at_cycle != 0))
-    text << "a move (stream_id 0) ends at rest, as soon as it can: derivatives and at_cycle must be 0";
+    text << "a move (stream_id 0) begins at once and ends at rest: derivatives and at_cycle must be 0";
   else if (setpoint.at_cycle < 0)
-    text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none, is allowed";
+    text << "at_cycle = " << setpoint.at_cycle << ": a future cycle, or 0 for none, is allowed";
   else if (setpoint.approach != 0 && setpoint.begins_stream == 0)
-    text << "approach = " << setpoint.approach << ": 0 is allowed, but for the setpoint that begins a stream";
+    text << "approach = " << setpoint.approach
+         << ": 0 is allowed, except in the setpoint that begins a stream";
   else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
     text << "velocity_rad_s = " << number_text(setpoint.velocity_rad_s) << ": from " << -kMaxVelocity_rad_s
          << " to " << kMaxVelocity_rad_s << " is allowed";
@@ -62,8 +63,7 @@ std::optional<std::string> complaint_about_motion(const setpoint_v1& setpoint) {
          << -kMaxAcceleration_rad_s2 << " to " << kMaxAcceleration_rad_s2 << " is allowed";
   else if (setpoint.stream_id != 0 && setpoint.at_cycle == 0 && setpoint.utime <= 0)
     text << "at_cycle = 0 and utime = " << setpoint.utime
-         << ": a setpoint of a stream says which cycle it is for (at_cycle), or when it was sent (utime, us, "
-            "above 0)";
+         << ": a setpoint of a stream needs its cycle (at_cycle), or the time when it was sent (utime, us)";
   else
     return std::nullopt;
   return text.str();
@@ -146,8 +146,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kLongestValidFor_s ||
       (setpoint->valid_for_s > 0.0) != (setpoint->stream_id != 0)) {
     text << "valid_for_s = " << number_text(setpoint->valid_for_s)
-         << " with stream_id = " << setpoint->stream_id << ": both 0 (a move), or a stream and at most "
-         << kLongestValidFor_s << " s are allowed";
+         << " with stream_id = " << setpoint->stream_id
+         << ": a move has 0 for both, a stream has a stream_id and at most " << kLongestValidFor_s << " s";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (const double speed_rad_s = setpoint->speed_limit_rad_s;

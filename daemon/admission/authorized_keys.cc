@@ -41,7 +41,7 @@ std::string read_protected(const std::filesystem::path& path) {
     text.append(part.data(), static_cast<std::size_t>(size));
   if (size < 0) fail(path, "security.authorized_keys cannot be read");
   if (text.size() > kMaxFileBytes)
-    throw InputError(path.string() + ": is larger than 256 KiB: no list of keys");
+    throw InputError(path.string() + ": is larger than 256 KiB, the most for a list of keys");
   return text;
 }
 
@@ -81,14 +81,14 @@ AuthorizedKeys read_authorized_keys(const std::filesystem::path& path) {
     }
     const auto [first, is_new] = first_line.try_emplace(keys.back().key.id(), number);
     if (!is_new)
-      throw InputError(where + "the key of line " + std::to_string(first->second) +
-                       " again: a key has one role, delete one line");
+      throw InputError(where + "repeats the key of line " + std::to_string(first->second) +
+                       ": a key has one role; delete one of the lines");
     if (keys.size() > AuthorizedKeys::kMaxKeys)
-      throw InputError(where + "more than " + std::to_string(AuthorizedKeys::kMaxKeys) + " keys");
+      throw InputError(where + "at most " + std::to_string(AuthorizedKeys::kMaxKeys) + " keys are allowed");
   }
   if (keys.empty())
     throw InputError(path.string() +
-                     ": has no key, so no client could give an order: make one with strainwavectl keygen "
+                     ": has no key, and no client could give orders: make a key with strainwavectl keygen "
                      "and put the line of its .pub file here");
   return AuthorizedKeys(std::move(keys));
 }

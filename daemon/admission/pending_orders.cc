@@ -48,7 +48,7 @@ void PendingOrders::handle(Verdict& verdict, std::int64_t now_ns) {
 void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
   if (verdict.table == nullptr || !verdict.proves_box) return give(verdict, now_ns);
   if (!prover_.hand_over(verdict))
-    refuse(verdict, Reason::kBusy, "another table is just being proved", now_ns);
+    refuse(verdict, Reason::kBusy, "another table is still being proved", now_ns);
 }
 
 std::optional<Verdict> PendingOrders::take_proved_table(std::int64_t now_ns) {
@@ -77,13 +77,13 @@ void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
   if (is_table && !prepare_table(verdict, table_id))
     return refuse(verdict, verdict.reason, verdict.text, now_ns);
   if (verdict.order.kind == OrderKind::kLoadPath && !prepare_path(verdict))
-    return refuse(verdict, Reason::kBusy, "another path is just being taken over", now_ns);
+    return refuse(verdict, Reason::kBusy, "another path is still being taken over", now_ns);
   verdict.order.id = next_order_id_++;
   if (!push(verdict)) {
     undo_preparation(verdict);
     return refuse(verdict, Reason::kBusy,
-                  "too many orders at once, at most " + std::to_string(kMostWaitingOrders - kPlacesForStops) +
-                      " of a joint may wait for its loop: send fewer, or wait for answers",
+                  "too many orders at once: at most " + std::to_string(kMostWaitingOrders - kPlacesForStops) +
+                      " orders of a joint may wait for the loop. Send fewer, or wait for the answers",
                   now_ns);
   }
   if (verdict.requester.takes_over) admission_.take_over(verdict.requester, now_ns);
@@ -151,7 +151,7 @@ bool PendingOrders::prepare_table(Verdict& verdict, std::int64_t& table_id) {
   const auto slot = verdict.revert_table ? book.previous_slot() : book.free_slot();
   if (book.busy() || !slot) {
     verdict.reason = book.busy() ? Reason::kBusy : Reason::kNoPreviousTable;
-    verdict.text = book.busy() ? "another table is just being taken over" : "there is no table to go back to";
+    verdict.text = book.busy() ? "another table is still being taken over" : "the joint had no other table";
     return false;
   }
   JointLoop& joint = loop_.joint(verdict.requester.joint);
@@ -203,7 +203,7 @@ std::optional<Verdict> PendingOrders::take_replies(std::int64_t now_ns) {
 }
 
 void PendingOrders::give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns) {
-  answer_all(pending, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
+  answer_all(pending, Reason::kTimedOut, "the loop did not answer in 0.5 s: see the joint's state", now_ns);
   if (pending.table_id != 0)
     unanswered_[pending.requester.joint] = {order_id, pending.table_id, loop_.statistics().cycle.load()};
 }

@@ -42,8 +42,8 @@ TableVerdict judge_antiwindup(const FeedbackGains& gains, const PlantIdentity& p
   return {
       Reason::kTableNotCertified,
       "gains " + std::string(gains.controller.view()) +
-          ": P of rule 0 does not fall on this joint, by which anti-windup works; design the table for it "
-          "with strainwave-design gains"};
+          ": anti-windup is not proved on this joint, since P of rule 0 does not decrease; design the table "
+          "for it with strainwave-design gains"};
 }
 
 // The worst corner of the spring's stiffnesses, the extremes of viscous friction, and all gains.
@@ -73,10 +73,10 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
   const WorstCorner worst = worst_on_spring(table, *joint.link, loop_of(table, joint.delay_periods));
   if (worst.radius < 1.0) return {};
   std::ostringstream text;
-  text << std::setprecision(5) << "the link swings up under these gains: eigenvalue " << worst.radius
-       << " a period, below 1 is allowed, at " << describe(worst.plant)
+  text << std::setprecision(5) << "these gains are unstable on this joint's spring: eigenvalue "
+       << worst.radius << " a period, below 1 is allowed, at " << describe(worst.plant)
        << ", delay_periods = " << joint.delay_periods
-       << "; design softer ones with strainwave-design gains --gear "
+       << "; design softer gains with strainwave-design gains --gear "
        << (joint.plant.gear.view().empty() ? "NAME" : joint.plant.gear.view()) << " --motor-inertia_kgm2 "
        << worst.plant.motor_inertia_kgm2 << " --load-inertia_kgm2 " << worst.plant.link_inertia_kgm2
        << " --delay " << joint.delay_periods;
@@ -110,13 +110,13 @@ std::string which_torque_limit_holds(const GainTable& table, double torque_limit
   const double holds_Nm = lowered ? torque_limit_Nm : table.torque_limit_Nm;
   std::ostringstream text;
   text << "; torque limit " << holds_Nm << " N.m, "
-       << (lowered ? "joint.limits.torque_limit_Nm, below the table's "
-                   : "the table's, below joint.limits.torque_limit_Nm = ")
+       << (lowered ? "from joint.limits.torque_limit_Nm, below the table's "
+                   : "from the table, below joint.limits.torque_limit_Nm = ")
        << (lowered ? table.torque_limit_Nm : torque_limit_Nm);
   const TemperatureRule& coldest = table.friction.rules.front();
   if (coldest.friction.static_Nm >= holds_Nm)
-    text << "; the joint at " << coldest.center_C << " degC withstands " << coldest.friction.static_Nm
-         << " N.m and will not move there";
+    text << "; at " << coldest.center_C << " degC static friction is " << coldest.friction.static_Nm
+         << " N.m, and the joint will not move";
   return text.str();
 }
 
@@ -158,9 +158,10 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   TableVerdict identity = judge_identity(table, joint);
   if (identity.reason != Reason::kAccepted) return identity;
   if (!joint.law_acts)
-    return {Reason::kAccepted,
-            "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +
-                note_of(table)};
+    return {
+        Reason::kAccepted,
+        "its friction and inertia are used; the drive closes its own loop, whose stability is not proved" +
+            note_of(table)};
   // A rigid joint is judged with its own inertia. A flexible joint lies in a box of inertias; the table's design inertia counts then.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
   TableVerdict verdict = judge_antiwindup(table.primary, plant);

@@ -33,34 +33,36 @@ std::size_t find_joint(const DaemonConfig& config, const std::string& name) {
 const Gear& gear_of(const JointConfig& joint) {
   if (const Gear* const gear = find_gear(joint.plant.gear.view())) return *gear;
   throw InputError(joint.name + ": joint.gear: one of " + gear_names() +
-                   " is allowed: commissioning starts from its lost motion and keeps its torque");
+                   " is allowed: commissioning uses the gear's lost motion and keeps its torque limit");
 }
 
 void require_commissionable(const JointConfig& joint) {
   const JointControllerConfig& controller = joint.loop.controller;
   if (!controller.link)
     throw InputError(joint.name +
-                     ": joint.model = \"rigid\": \"flexible\" is allowed, with gear, motor_inertia_kgm2 "
-                     "and load_inertia_kgm2: commissioning measures the spring, too");
+                     ": joint.model = \"rigid\": only \"flexible\" with a gear is allowed: commissioning "
+                     "measures the spring, too");
   if (controller.drive_closes_loop())
-    throw InputError(joint.name +
-                     ": joint.can.drive_mode: \"torque\" is allowed: a drive that closes its own loop "
-                     "takes no torque, by which commissioning measures");
+    throw InputError(
+        joint.name +
+        ": joint.can.drive_mode: only \"torque\" is allowed: commissioning orders torques, and a "
+        "drive that closes its own loop takes none");
   if (controller.encoder_side == EncoderSide::kLink)
-    throw InputError(joint.name +
-                     ": encoder_side = \"link\": \"motor\" is allowed: the motion of the motor is measured");
+    throw InputError(
+        joint.name +
+        ": encoder_side = \"link\": only \"motor\" is allowed: commissioning measures the motor");
   if (const auto* const simulated = std::get_if<SimulatedDrive>(&joint.drive)) {
     const auto& gear = simulated->actuator.plant.effects.transmission;
     if (gear && gear->lost_motion.width_rad == 0.0)
       throw InputError(joint.name +
-                       ": joint.simulated.spring: lost_motion_rad = 0: above 0 is allowed, such as 0.0003: "
-                       "commissioning measures a gear with the lost motion of its catalogue");
+                       ": joint.simulated.spring.lost_motion_rad = 0: a number above 0 is allowed, such as "
+                       "0.0003: commissioning needs a gear with lost motion");
   }
   if (joint.loop.homing.required)
     throw InputError(
         joint.name +
         ": joint.homing: a joint that must be homed has no position yet. For this run delete "
-        "[joint.homing], set encoder = \"absolute\", and give limits around where the joint stands");
+        "[joint.homing], set encoder = \"absolute\", and give limits around its present position");
   if (const Gear& gear = gear_of(joint); controller.torque_limit_Nm > gear.repeated_peak_torque_Nm)
     throw InputError(joint.name + ": joint.limits", "torque_limit_Nm",
                      number_text(controller.torque_limit_Nm),
@@ -72,11 +74,12 @@ void require_commissionable(const JointConfig& joint) {
 void require_watched(const DaemonConfig& config, const Interruption& interruption) {
   if (!interruption.has_terminal())
     throw InputError(
-        "--commission: standard input is no terminal: run it in one, since any key must end the motion");
+        "--commission: standard input is not a terminal: run it in one, where any key ends the motion");
   for (const JointConfig& joint : config.joints)
     if (joint.driver == "simulated")
-      throw InputError(joint.name +
-                       ": joint.driver = \"simulated\" beside a real joint: remove it for this run");
+      throw InputError(
+          joint.name +
+          ": joint.driver = \"simulated\" is not allowed beside a real joint: remove it for this run");
 }
 
 ExcitationConfig excitation_config(const JointConfig& joint, double period_s) {
@@ -120,7 +123,7 @@ CommissioningConfig commissioning_config(const DaemonConfig& config, std::size_t
   made.simulated = joint.driver == "simulated";
   made.direction_key =
       joint.driver == "gpio"
-          ? "gpio.torque.reversed is wrong"
+          ? "gpio.amplifier.reversed or gpio.encoder.reversed is wrong"
           : "torque acts against position; correct the sign of one of them in the drive, since " +
                 joint.driver + ".direction turns both";
   made.excitation = excitation_config(joint, config.loop.period_s);

@@ -38,7 +38,7 @@ CommissionLoop::CommissionLoop(const LoopConfig& config, LoopParts parts, std::s
   if (!refused) return;
   thread_.join();
   throw InputError("real time refused: " + refusal_ +
-                   "; or set daemon.real_time = \"ignore\" to run without (never with a real joint)");
+                   "; or set daemon.real_time = \"ignore\" (never with a real joint)");
 }
 
 CommissionLoop::~CommissionLoop() {
@@ -79,7 +79,7 @@ void CommissionLoop::period(std::int64_t now_ns, std::int64_t skipped) noexcept 
         if (const char* const why = interruption_.exchange(nullptr)) moved->abort(why);
         // A trace with a gap cannot be evaluated.
         if (skipped > 0)
-          moved->abort("the loop came too late for a period: real time is needed (docs/performance.md)");
+          moved->abort("the loop missed a period: commissioning needs real time (docs/performance.md)");
         command = moved->step(reading);
       }
     }

@@ -30,12 +30,12 @@ Interruption::~Interruption() {
 
 const char* Interruption::wait(int timeout_ms) noexcept {
   std::array<pollfd, 2> descriptors{{{signals_.descriptor(), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-  if (::getppid() != parent_) return "interrupted: the program that began it is gone";
+  if (::getppid() != parent_) return "interrupted: the program that started it has ended";
   if (::poll(descriptors.data(), before_ ? 2 : 1, timeout_ms) <= 0) return nullptr;
   if (signals_.take()) return "interrupted by a signal";
   char key = 0;
   // A lost terminal interrupts like a key.
-  if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "interrupted: the terminal is gone";
+  if ((descriptors[1].revents & (POLLHUP | POLLERR)) != 0) return "interrupted: the terminal was closed";
   if ((descriptors[1].revents & POLLIN) != 0 && ::read(STDIN_FILENO, &key, 1) >= 0)
     return key == kControlC ? "interrupted by Ctrl-C" : "interrupted by a key";
   return nullptr;

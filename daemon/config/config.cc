@@ -126,15 +126,15 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
   const bool simulated = std::all_of(joints.begin(), joints.end(),
                                      [](const JointConfig& joint) { return joint.driver == "simulated"; });
   if (security.unsigned_allowed && !simulated)
-    section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may take unsigned orders");
+    section.fail("unsigned_orders", "only \"refuse\" is allowed with a real joint");
   const std::string keys = section.text_or("authorized_keys", "");
   section.refuse_unknown_keys();  // first: a missing key may be there under a wrong name
   if (section.has("authorized_keys"))
     security.keys = read_authorized_keys(credential_or_file(folder / keys));
   else if (!security.unsigned_allowed)
     section.fail("authorized_keys",
-                 "give the file with the public keys that may give orders (strainwavectl keygen makes "
-                 "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
+                 "give the file of public keys that may give orders (strainwavectl keygen makes keys); with "
+                 "simulated joints alone, security.unsigned_orders = \"allow\" is possible instead");
   return security;
 }
 
@@ -178,9 +178,10 @@ DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use) {
   const double recorder_MB = static_cast<double>(config.joints.size() * sizeof(FlightSample)) *
                              config.recorder.seconds / config.loop.period_s / 1e6;
   if (recorder_MB > kMaxRecorder_MB)
-    root.fail("recorder", "fewer seconds are allowed: " + std::to_string(std::lround(recorder_MB)) +
-                              " MB of memory would be locked for " + std::to_string(config.joints.size()) +
-                              " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
+    root.fail("recorder", "the daemon would lock " + std::to_string(std::lround(recorder_MB)) +
+                              " MB of memory for " + std::to_string(config.joints.size()) +
+                              " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)) +
+                              " MB are allowed: lower recorder.seconds");
   const TomlSection security = root.section_or_empty("security");
   root.refuse_unknown_keys();
   root.throw_errors();
@@ -191,7 +192,7 @@ DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use) {
   for (const JointConfig& joint : config.joints) require_protected(path, writers_allowed(joint));
   config.warnings = root.warnings();
   if (const auto exposure = find_exposure(path, Writers::kNobody))
-    config.warnings.push_back(*exposure + ", which a real joint needs");
+    config.warnings.push_back(*exposure + "; a real joint needs this");
   return config;
 }
 

@@ -148,7 +148,7 @@ CanConfig::CanConfig(TomlSection& root, double period_s, double stall_s)
       bus.config.heartbeat_period_s = bus.section.number_or("heartbeat_s", 0.05, kHeartbeat_s);
     else if (bus.section.has("heartbeat_s"))
       bus.section.fail("heartbeat_s",
-                       "none is sent on a bus with sync = \"none\": ODrives have a watchdog instead");
+                       "the daemon sends no heartbeat on a bus with sync = \"none\": leave the key out");
     bus.config.stuck_periods =
         static_cast<int>(bus.section.integer_or("stuck_periods", bus.config.stuck_periods, 1, 1000));
     bus.config.period_s = period_s;
@@ -178,14 +178,14 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   if (std::find(bus.node_ids.begin(), bus.node_ids.end(), node_id) != bus.node_ids.end())
     section.note_error(section.place("node_id") + ": each drive on a bus needs a node id of its own");
   if (!is_odrive && node_id == bus.config.our_node_id)
-    section.note_error(section.place("node_id") + ": another than the bus's our_node_id is allowed");
+    section.note_error(section.place("node_id") + ": any but the bus's our_node_id is allowed");
   joint.drive = DriveOnBus{static_cast<std::size_t>(&bus - buses_.data()), bus.drives.size()};
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
   bus.node_ids.push_back(node_id);
   // The identifiers of the two protocols overlap, so a bus has only one protocol. CiA 402 needs a SYNC, CANSimple has none.
   if (is_odrive) {
     if (bus.config.sync != SyncProducer::kNone)
-      section.fail("protocol", "a bus of their own is what ODrives need: set can_bus.sync to \"none\"");
+      section.fail("protocol", "ODrives need a bus of their own: set can_bus.sync to \"none\"");
     const odrive::DriveConfig drive = read_odrive(section, node_id, period_s_, joint);
     bus.drives.emplace_back(drive);
     HomingInputs inputs;
@@ -197,7 +197,8 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
 
 HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint) {
   if (bus.config.sync == SyncProducer::kNone)
-    section.fail("protocol", "a bus with a SYNC is needed: set can_bus.sync to another than \"none\"");
+    section.fail("protocol",
+                 "\"cia402\" needs a bus with SYNC: set can_bus.sync to \"daemon\", \"drive\" or \"other\"");
   cia402::DriveConfig drive;
   drive.name = joint.name;
   drive.node_id = static_cast<std::uint8_t>(node_id);
@@ -208,7 +209,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   drive.daemon_sends_sync = bus.config.sync == SyncProducer::kDaemon;
   drive.produces_sync = section.boolean_or("produces_sync", false);
   if (drive.produces_sync && (!bus.drive_makes_sync || bus.has_sync_drive))
-    section.fail("produces_sync", "one drive of a bus with sync = \"drive\" may produce it");
+    section.fail("produces_sync", "true is allowed for one drive of a bus with sync = \"drive\"");
   bus.has_sync_drive = bus.has_sync_drive || drive.produces_sync;
   drive.our_heartbeat_timeout_s = section.number_or(
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
@@ -224,7 +225,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
     joint.loop.controller.drive_loop_period_s =
         section.number_or("drive_loop_period_s", std::min(kUsualDriveLoop_s, period_s_), {0.0, period_s_});
   else if (section.has("drive_loop_period_s"))
-    section.fail("drive_loop_period_s", "only drive_mode = \"position\" has it");
+    section.fail("drive_loop_period_s", "it is allowed only with drive_mode = \"position\"");
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);
@@ -250,7 +251,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
 std::vector<BusConfig> CanConfig::buses() const {
   std::vector<BusConfig> result;
   for (const Bus& bus : buses_) {
-    if (bus.drives.empty()) bus.section.fail("name", "a bus with at least one joint is allowed");
+    if (bus.drives.empty()) bus.section.fail("name", "each bus needs at least one joint");
     if (bus.drive_makes_sync && !bus.has_sync_drive)
       bus.section.fail("sync", "\"drive\" needs a joint with produces_sync = true");
     require_bus_load(bus.name, CanBus::traffic_of(bus.config, make_nodes(bus.drives)), bus.config.bit_rate,

@@ -50,13 +50,12 @@ void doubt_motion(const TomlSection& section, const JointLoopConfig& loop) {
   const double way_rad =
       std::min(loop.limits.position_max_rad - loop.limits.position_min_rad, 0.5 * kTurn_rad);
   if (const double way_s = way_rad / speed_rad_s; way_s > kSlowTurn_s)
-    section.warn("speed_limit_rad_s", rounded(way_rad) + " rad take " + rounded(way_s) +
-                                          " s; in a minute they are done with " + rounded(way_rad / 60.0));
+    section.warn("speed_limit_rad_s", "a motion of " + rounded(way_rad) + " rad takes " + rounded(way_s) +
+                                          " s; with " + rounded(way_rad / 60.0) + " it takes a minute");
   const auto slow_start = [&](const char* key, double start_s, double in_a_second) {
     if (start_s > kSlowStart_s)
-      section.warn(key, "the joint needs " + rounded(start_s) +
-                            " s to reach speed_limit_rad_s = " + rounded(speed_rad_s) +
-                            "; in one second it is there with " + rounded(in_a_second));
+      section.warn(key, "the joint needs " + rounded(start_s) + " s to reach speed_limit_rad_s = " +
+                            rounded(speed_rad_s) + "; with " + rounded(in_a_second) + " it needs one second");
   };
   slow_start("acceleration_rad_s2", speed_rad_s / loop.controller.motion.acceleration_rad_s2, speed_rad_s);
   // v = j (t / 2)^2: the acceleration rises for one half and falls for the other.
@@ -70,7 +69,7 @@ void doubt_angle(const TomlSection& section, std::string_view key, double angle_
   if (!section.has(key) || std::abs(angle_rad) <= usual_rad * (1.0 + 1e-3)) return;
   std::ostringstream doubt;
   doubt.precision(5);
-  doubt << "are " << angle_rad / kTurn_rad << " turns of the joint; if degrees are meant, write "
+  doubt << "this means " << angle_rad / kTurn_rad << " turns of the joint; if degrees are meant, write "
         << angle_rad * kRadianPerDegree;
   section.warn(key, doubt.str());
 }
@@ -90,8 +89,8 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
   if (speed_rad_s * gear_ratio > kFastestInput_rad_s) {
     std::ostringstream doubt;
     doubt.precision(5);
-    doubt << "makes the motor turn at " << std::round(speed_rad_s * gear_ratio / kTurn_rad * 60.0)
-          << " rpm, no strain-wave gear above 14000; if degrees are meant, write "
+    doubt << "the motor would turn at " << std::round(speed_rad_s * gear_ratio / kTurn_rad * 60.0)
+          << " rpm, and strain-wave gears allow at most 14000; if degrees are meant, write "
           << speed_rad_s * kRadianPerDegree;
     section.warn("speed_limit_rad_s", doubt.str());
   }
@@ -100,9 +99,9 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
     section.warn("temperature_limit_C",
                  "too hot for the grease of any gear" + fahrenheit_hint(limits.temperature_limit_C));
   if (section.has("overspeed_rad_s") && limits.overspeed_rad_s > kLargeOverspeed * speed_rad_s)
-    section.warn("overspeed_rad_s", "a joint that runs away is stopped only at " +
+    section.warn("overspeed_rad_s", "the daemon stops a runaway joint only at " +
                                         number_text(limits.overspeed_rad_s / speed_rad_s) +
-                                        " times its speed limit; left out it is a quarter above it");
+                                        " times its speed limit; the default is about 1.25 times");
 }
 
 void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
@@ -111,10 +110,10 @@ void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
   const double most_kgm2 = controller.torque_limit_Nm / controller.motion.acceleration_rad_s2;
   if (inertia_kgm2 <= most_kgm2) return;
   std::string doubt =
-      "torque_limit_Nm = " + number_text(controller.torque_limit_Nm) + " gives it at most " +
+      "torque_limit_Nm = " + number_text(controller.torque_limit_Nm) + " gives this inertia at most " +
       rounded(controller.torque_limit_Nm / inertia_kgm2) +
-      " rad/s2, never acceleration_rad_s2 = " + number_text(controller.motion.acceleration_rad_s2) +
-      ": motions take what the torque allows and last longer than that limit promises";
+      " rad/s2, less than acceleration_rad_s2 = " + number_text(controller.motion.acceleration_rad_s2) +
+      ": motions last longer than that limit promises";
   // If there are two inertias, the larger one is in doubt.
   const double motor_kgm2 = controller.link ? controller.link->motor_inertia_kgm2 : 0.0;
   const double doubted_kgm2 = std::max(motor_kgm2, inertia_kgm2 - motor_kgm2);
@@ -136,8 +135,8 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
     std::ostringstream doubt;
     doubt.precision(4);
     doubt << joint << ": torque limit " << holds_Nm
-          << " N.m (of joint.limits.torque_limit_Nm = " << controller.torque_limit_Nm << " and the table's "
-          << table.torque_limit_Nm << "): ";
+          << " N.m (the lower of joint.limits.torque_limit_Nm = " << controller.torque_limit_Nm
+          << " and the table's " << table.torque_limit_Nm << "): ";
     write(doubt);
     doubts.push_back(doubt.str());
   };
@@ -150,11 +149,12 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
   const double needed_Nm = hardest.friction.static_Nm + gravity_Nm;
   if (holds_Nm * (1.0 - kLeastSpare) < needed_Nm)
     note([&](std::ostream& doubt) {
-      doubt << "at " << hardest.center_C << " degC " << hardest.friction.static_Nm
-            << " N.m of it are static friction";
-      if (gravity_Nm > 0.0) doubt << " and " << gravity_Nm << " N.m gravity";
-      doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
-            << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
+      doubt << "at " << hardest.center_C << " degC static friction takes " << hardest.friction.static_Nm
+            << " N.m";
+      if (gravity_Nm > 0.0) doubt << " and gravity " << gravity_Nm << " N.m";
+      doubt << (holds_Nm > needed_Nm ? ", and hardly any torque is left for motion"
+                                     : ", and the joint does not move")
+            << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would be enough";
     });
   return doubts;
 }
@@ -166,12 +166,12 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
   while (!std::filesystem::exists(std::filesystem::symlink_status(there, error)) && there.has_relative_path())
     there = there.parent_path();
   if (!std::filesystem::is_directory(there, error))
-    section.warn(key,
-                 "nothing can be written there: " + there.string() + " is no folder; name another folder");
+    section.warn(
+        key, "the daemon cannot write there: " + there.string() + " is not a folder; name another folder");
   else if (::access(there.c_str(), W_OK | X_OK) != 0)
-    section.warn(key, "nothing can be written there by the user " + std::to_string(::geteuid()) + ": " +
-                          there.string() + ": " + std::generic_category().message(errno) +
-                          "; name another folder, or have this one made for the daemon's user");
+    section.warn(key, "user " + std::to_string(::geteuid()) + " cannot write there: " + there.string() +
+                          ": " + std::generic_category().message(errno) +
+                          "; name another folder, or give this one to the daemon's user");
   else if (const auto exposure = find_exposure(there, Writers::kGroup))
     section.warn(key, "other users can write there, and could replace a record: " + *exposure);
   else if (there == std::filesystem::absolute(folder).lexically_normal() &&
@@ -184,12 +184,13 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {
   const OverrunLimits defaults;
   const auto off = [&](const char* key, bool doubtful, const std::string& what, double usual) {
-    if (section.has(key) && doubtful) section.warn(key, what + "; left out it is " + number_text(usual));
+    if (section.has(key) && doubtful) section.warn(key, what + "; the default is " + number_text(usual));
   };
   off("stall_limit_s", loop.overruns.stall_s > kLongAbsence_s,
-      "for so long a joint may be without control before it is a fault", defaults.stall_s);
+      "a joint may be without control for this long before that is a fault",
+      std::max(defaults.stall_s, 2.0 * loop.period_s));
   off("missed_share_limit", loop.overruns.missed_share >= 1.0,
-      "however many periods are missed is no fault: the supervision is off", defaults.missed_share);
+      "missed periods are never a fault: the supervision is off", defaults.missed_share);
 }
 
 }  // namespace strainwave

@@ -10,9 +10,9 @@ DriveMode read_drive_mode(TomlSection& section, JointConfig& joint) {
   joint.loop.controller.drive_mode = mode;
   if (!closes_loop(mode)) return mode;
   if (joint.loop.controller.encoder_side == EncoderSide::kLink)
-    section.fail("drive_mode", "\"torque\" is allowed with encoder_side = \"link\"");
+    section.fail("drive_mode", "only \"torque\" is allowed with encoder_side = \"link\"");
   if (joint.loop.overload_stop == OverloadStop::kHoldLoad)
-    section.fail("drive_mode", "\"torque\" is allowed with joint.limits.on_overload = \"hold_load\"");
+    section.fail("drive_mode", "only \"torque\" is allowed with joint.limits.on_overload = \"hold_load\"");
   return mode;
 }
 

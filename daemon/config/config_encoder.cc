@@ -27,9 +27,9 @@ void require_motor_encoder(const TomlSection& section, double encoder_turns_per_
                            bool flexible) {
   if (!flexible || std::abs(encoder_turns_per_joint_turn - gear_ratio) <= 1e-6 * gear_ratio) return;
   section.fail("encoder_turns_per_joint_turn",
-               "joint.gear_ratio = " + number_text(gear_ratio) +
-                   ", an encoder on the motor, is allowed with joint.model = \"flexible\": gains for the "
-                   "motor's side are unstable with the gear's spring before the encoder");
+               "only joint.gear_ratio = " + number_text(gear_ratio) +
+                   " (an encoder on the motor) is allowed with joint.model = \"flexible\": the gains are "
+                   "unstable with the gear's spring between motor and encoder");
 }
 
 }  // namespace strainwave

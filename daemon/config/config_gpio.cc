@@ -157,10 +157,10 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
     quadrature.clock_ns = &monotonic_now_ns;
     const double wanted_Hz = joint.loop.controller.motion.velocity_rad_s * counts_per_rad;
     if (wanted_Hz > quadrature.max_rate_Hz)
-      section.fail("source", "\"counter\" is allowed: joint.limits.speed_limit_rad_s makes " +
+      section.fail("source", "joint.limits.speed_limit_rad_s makes " +
                                  std::to_string(std::lround(wanted_Hz)) +
-                                 " edges a second, and edges are counted up to max_rate_Hz = " +
-                                 std::to_string(std::lround(quadrature.max_rate_Hz)));
+                                 " edges a second, more than max_rate_Hz = " +
+                                 std::to_string(std::lround(quadrature.max_rate_Hz)) + ": use \"counter\"");
     gpio.encoder = quadrature;
   }
   section.refuse_unknown_keys();
@@ -188,8 +188,10 @@ HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, do
   if (controller.torque_limit_Nm > controller.motor.peak_torque_Nm * (1.0 + 1e-9)) {
     std::ostringstream most;
     most << controller.motor.peak_torque_Nm;
-    section.fail("motor", "more current, or a joint.limits.torque_limit_Nm of at most " + most.str() +
-                              ", is needed: torque constant * gear ratio * efficiency * current");
+    section.fail(
+        "motor",
+        "joint.limits.torque_limit_Nm may be at most " + most.str() +
+            " (torque constant * gear ratio * efficiency * current): lower it, or allow more current");
   }
   joint.driver_resource = "pwm " + gpio.pwm.chip_folder.string() + " " + std::to_string(gpio.pwm.channel);
   joint.drive = gpio;

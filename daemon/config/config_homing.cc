@@ -15,8 +15,7 @@ constexpr double kStopSpeedShare = 0.005;
 HomingTarget target_of(TomlSection& section, bool negative, const HomingInputs& available) {
   const std::string to = section.choice_or("to", "none", {"none", "home", "limit", "index", "stop"});
   const auto require = [&](bool there, const char* what) {
-    if (!there)
-      section.fail("to", std::string("something that this joint's driver has is allowed; it has no ") + what);
+    if (!there) section.fail("to", std::string("this joint's driver has no ") + what + ": choose another");
   };
   if (to == "home") {
     require(available.home, "home switch");
@@ -46,16 +45,16 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   if (homing.target != HomingTarget::kNone && joint.loop.controller.gravity.torque_Nm != 0.0)
     section.fail(
         "to",
-        "nothing to look for is allowed with joint.control.gravity_Nm: the weight is held from the first "
-        "torque on, where positions must already be the joint's");
+        "only \"none\" is allowed with joint.control.gravity_Nm: the daemon needs the true position to hold "
+        "the weight from the first torque on");
   if (available.counts_from_switch_on && homing.target == HomingTarget::kNone)
-    section.fail(
-        "to", "a place to look for is needed: this joint's encoder is incremental and forgets its position");
+    section.fail("to", "a home is needed: this joint's incremental encoder loses its position at switch-off");
   homing.required = section.boolean_or("required", available.counts_from_switch_on);
   if (available.counts_from_switch_on && !homing.required)
-    section.fail("required", "true is allowed: this joint's encoder is incremental and forgets its position");
+    section.fail("required",
+                 "only true is allowed: this joint's incremental encoder loses its position at switch-off");
   if (homing.required && homing.target == HomingTarget::kNone)
-    section.fail("required", "false is allowed while joint.homing.to names nothing to look for");
+    section.fail("required", "only false is allowed with joint.homing.to = \"none\"");
   homing.then_index = section.boolean_or("then_index", homing.then_index);
   const bool by_switch =
       homing.target == HomingTarget::kHomeSwitch || homing.target == HomingTarget::kLimitSwitch;

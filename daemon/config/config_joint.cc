@@ -62,7 +62,7 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   if (loop.limits.temperature_limit_C >= check.max_C)
     section.note_error(section.place("max_C") + ": a temperature above joint.limits.temperature_limit_C = " +
                        number_text(loop.limits.temperature_limit_C) +
-                       " is allowed: a joint at its limit must be believed" +
+                       " is allowed: the daemon rejects readings above max_C" +
                        fahrenheit_hint(loop.limits.temperature_limit_C));
   section.refuse_unknown_keys();
 }
@@ -98,7 +98,7 @@ FixedString<32> read_joint_model(TomlSection& section) {
   FixedString<32> kept(model);
   if (model.empty() || !printable || kept.view() != model)
     section.fail("joint_model",
-                 "the model of the joint's tables, 1 to 31 printable ASCII characters, is allowed");
+                 "1 to 31 printable ASCII characters are allowed: the joint_model of this joint's tables");
   return kept;
 }
 
@@ -135,11 +135,11 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
     joint.thermometer = read_thermometer(section.section("thermometer"), folder);
   if (joint.thermometer && joint.driver == "simulated")
     section.fail("thermometer",
-                 "a sensor of a real drive is allowed: the simulated one has its own temperature");
+                 "it is allowed only with a real drive: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
   if (joint.thermometer && driver.has("temperature"))
     section.fail("thermometer",
-                 "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
+                 "only one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
   HomingInputs inputs;
   if (joint.driver == "can")
     inputs = can.read_joint(driver, joint);

@@ -60,16 +60,16 @@ void refuse_keys(const TomlSection& joint, const std::vector<const char*>& keys,
 
 TorsionSpring named_spring(TomlSection& joint, PlantIdentity& plant) {
   refuse_keys(joint, {"stiffness_torques_Nm"},
-              "it is allowed only without gear, whose torques the catalogue has: delete one of the two");
+              "it is allowed only without gear, since the catalogue has the torques: delete one of the two");
   const Gear* gear = find_gear(joint.text("gear"));
   if (gear == nullptr)
     joint.fail("gear", "a gear of the catalogue is allowed: " + gear_names() +
                            "; for another give stiffness_Nm_rad in its place");
   if (std::abs(gear->ratio - plant.gear_ratio) > 1e-6 * gear->ratio)
     // Reading goes on, so that all errors of a file are reported at once.
-    joint.note_error(joint.place("gear") + ": a gear of joint.gear_ratio = " + number_text(plant.gear_ratio) +
-                     " is allowed; that of this one is " + number_text(gear->ratio) +
-                     ": set joint.gear_ratio to it if this is the gear");
+    joint.note_error(joint.place("gear") + ": this gear's ratio is " + number_text(gear->ratio) +
+                     ", but joint.gear_ratio = " + number_text(plant.gear_ratio) +
+                     ": correct joint.gear_ratio, or name another gear");
   plant.gear = FixedString<32>(gear->name);
   if (!joint.has("stiffness_Nm_rad")) return gear->spring;
   // The measured K1 scales all slopes of the catalogue's spring alike.
@@ -87,7 +87,7 @@ TorsionSpring measured_spring(TomlSection& joint) {
     joint.fail("stiffness_Nm_rad", "three slopes, [K1, K2, K3], are allowed with stiffness_torques_Nm");
   if (torques.size() != 2 || torques[0] >= torques[1])
     joint.fail("stiffness_torques_Nm",
-               "two rising torques are allowed: [T1, T2], from which on the slopes are K2 and K3");
+               "two rising torques are allowed: [T1, T2], above which the slopes are K2 and K3");
   return {slopes[0], torques[0], slopes[1], torques[1], slopes[2]};
 }
 

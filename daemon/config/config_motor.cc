@@ -20,7 +20,7 @@ MotorLimits read_motor_limits(TomlSection& section, const MotorConstants& motor,
   MotorData data = motor.at_joint(gear_ratio);
   data.peak_torque_Nm = peak_joint_torque_Nm;
   if (section.has("supply_V") != section.has("resistance_ohm"))
-    section.fail("supply_V", "supply_V and resistance_ohm, or neither, are allowed");
+    section.fail("supply_V", "supply_V and resistance_ohm belong together: give both, or neither");
   if (section.has("supply_V")) {
     data.supply_V = section.number("supply_V", kPositive);
     data.resistance_ohm = section.number("resistance_ohm", kPositive);

@@ -58,8 +58,8 @@ void require_order_fits(TomlSection& section, const JointConfig& joint, odrive::
   const double torque_Nm =
       std::abs(odrive::drive_torque_Nm(drive.units, drive.torque_limit_Nm, drive.torque_limit_Nm));
   if (torque_Nm * odrive::kTorqueUnitsPerNm > odrive::kMostUnits)
-    section.fail("drive_mode", "\"velocity\" and \"torque\" are allowed with " + number_text(torque_Nm) +
-                                   " N.m at the drive: \"position\" takes " +
+    section.fail("drive_mode", "only \"velocity\" or \"torque\" is allowed with " + number_text(torque_Nm) +
+                                   " N.m at the drive: \"position\" allows at most " +
                                    number_text(odrive::kMostUnits / odrive::kTorqueUnitsPerNm));
 }
 

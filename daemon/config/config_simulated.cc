@@ -48,8 +48,8 @@ void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, Join
   read_encoder_side(section, controller, plant.feedback);
   const long delay_periods = std::lround(plant.delay.periods);
   if (delay_periods > kMaxControlDelay && !section.has("delay_periods"))
-    section.fail("delay_periods", "it must be given, 0 to " + std::to_string(kMaxControlDelay) +
-                                      ", where joint.simulated.drive.delay_periods is larger");
+    section.fail("delay_periods", "give a number from 0 to " + std::to_string(kMaxControlDelay) +
+                                      ", since joint.simulated.drive.delay_periods is larger");
   controller.delay_periods =
       static_cast<int>(section.integer_or("delay_periods", delay_periods, 0, kMaxControlDelay));
 }
@@ -143,7 +143,7 @@ void refuse_beyond_limits(const TomlSection& section, double position_rad, const
   if (allowed(position_rad)) return;
   std::ostringstream text;
   text << "from " << number_text(limits.position_min_rad) << " to " << number_text(limits.position_max_rad)
-       << " is allowed, as joint.limits says (position_min_rad, position_max_rad)";
+       << " is allowed (joint.limits.position_min_rad and position_max_rad)";
   const double of_degrees_rad = position_rad * kTurn_rad / 360.0;
   if (position_rad != 0.0 && allowed(of_degrees_rad))
     text << std::setprecision(5) << "; if degrees are meant, write " << of_degrees_rad;

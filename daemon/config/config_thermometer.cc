@@ -13,7 +13,7 @@ TemperatureFileConfig read_thermometer(TomlSection section, const std::filesyste
                     ? TemperatureFileKind::kOneWire
                     : TemperatureFileKind::kNumber;
   config.scale_C = section.number_or("scale_C", config.scale_C, {-1e3, 1e3});
-  if (config.scale_C == 0.0) section.fail("scale_C", "degC per unit of the file's number, not 0, is allowed");
+  if (config.scale_C == 0.0) section.fail("scale_C", "a number other than 0 is allowed");
   config.offset_C = section.number_or("offset_C", config.offset_C, {-1e4, 1e4});
   config.period_s = section.number_or("period_s", config.period_s, {0.01, 60.0});
   section.refuse_unknown_keys();

@@ -37,11 +37,12 @@ void doubt_velocity_unit(const TomlSection& section, const cia402::UnitConfig& u
   if (unit_rad_s == 0.0 || is_decimal_part(unit_rad_s, counts_rad_s) ||
       is_decimal_part(unit_rad_s, rpm_rad_s))
     return;
-  section.warn("velocity_rad_s_per_unit",
-               "is no usual unit of 606Ch and 60FFh: counts per second are " + number_text(counts_rad_s) +
-                   ", rpm of the motor " + number_text(rpm_rad_s) +
-                   " at the joint, or a tenth, a hundredth and so on; a wrong unit makes the joint faster or "
-                   "slower than ordered");
+  section.warn(
+      "velocity_rad_s_per_unit",
+      "this is not a usual unit of 606Ch and 60FFh: a count per second is " + number_text(counts_rad_s) +
+          ", 1 rpm of the motor " + number_text(rpm_rad_s) +
+          " at the joint; a tenth or a hundredth of these is usual, too. A wrong unit makes the joint "
+          "faster or slower than ordered");
 }
 
 /// Returns the largest ratio of the gear catalogue that is below `ratio` and at most `most`.
@@ -59,11 +60,12 @@ void doubt_drive(const TomlSection& section, const JointConfig& joint, const cia
   const double counts_per_motor_turn = units.counts_per_output_revolution / units.gear_ratio;
   if (joint.loop.controller.encoder_side == EncoderSide::kMotor && units.gear_ratio > 1.0 &&
       counts_per_motor_turn < kFewestCountsPerMotorTurn)
-    section.warn("counts_per_output_revolution",
-                 "are " + number_text(counts_per_motor_turn) +
-                     " in a turn of the motor, where encoders have 500 and more; if a turn of the motor is "
-                     "meant, write " +
-                     number_text(units.counts_per_output_revolution * units.gear_ratio));
+    section.warn(
+        "counts_per_output_revolution",
+        "this means " + number_text(counts_per_motor_turn) +
+            " counts in a turn of the motor, and encoders have 500 or more; if a turn of the motor is "
+            "meant, write " +
+            number_text(units.counts_per_output_revolution * units.gear_ratio));
   doubt_velocity_unit(section, units);
   if (const auto doubt = cia402::torque_unit_doubt(drive.identity.vendor_id.value_or(0), units))
     section.warn("rated_torque_unit", *doubt);
@@ -89,13 +91,12 @@ void doubt_motor(TomlSection& motor, const JointConfig& joint, const cia402::Dri
   else if (10.0 * supply_V >= needed_V && 10.0 * supply_V <= kHighestSupply_V)
     likely = "supply_V = " + number_text(10.0 * supply_V);
   else if (needed_V / ratio <= supply_V)
-    likely = "the motor's own constant, torque_constant_Nm_A = " + number_text(constant_Nm_A / ratio);
-  motor.warn("supply_V", "reaches " + number_text(supply_V / (back_emf_Vs_rad * ratio)) +
-                             " rad/s of the joint without any torque, less than speed_limit_rad_s = " +
-                             number_text(speed_rad_s) + ", which takes " + number_text(needed_V) +
-                             " V (back_emf_Vs_rad = " + number_text(back_emf_Vs_rad) +
-                             ", gear_ratio = " + number_text(ratio) + ")" +
-                             (likely.empty() ? "" : "; likely meant is " + likely));
+    likely = "the motor's own torque_constant_Nm_A = " + number_text(constant_Nm_A / ratio);
+  motor.warn("supply_V", "the joint reaches " + number_text(supply_V / (back_emf_Vs_rad * ratio)) +
+                             " rad/s without any torque, less than speed_limit_rad_s = " +
+                             number_text(speed_rad_s) + ", which needs " + number_text(needed_V) +
+                             " V (back_emf_Vs_rad = " + number_text(back_emf_Vs_rad) + ", gear_ratio = " +
+                             number_text(ratio) + ")" + (likely.empty() ? "" : "; is " + likely + " meant?"));
 }
 
 }  // namespace strainwave

@@ -55,7 +55,7 @@ void Gateway::open_network() {
   const std::string url(outbound_.lcm_url.view());
   const auto address = parse_udpm_url(url);
   if (!address) {
-    problem_ = "daemon.lcm_url '" + url + "' is not of the kind udpm://GROUP:PORT?ttl=N";
+    problem_ = "daemon.lcm_url '" + url + "' does not have the form udpm://GROUP:PORT?ttl=N";
     return;
   }
   if (const auto problem = find_multicast_problem(url)) {

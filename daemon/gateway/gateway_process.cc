@@ -116,7 +116,7 @@ void GatewayProcess::connect_service() {
   connection_.reset(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!connection_ ||
       ::connect(connection_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    fail(errno, "starting the gateway by " + service_socket_);
+    fail(errno, "starting the gateway through " + service_socket_);
   send_descriptors(connection_.get(),
                    {descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_.get()});
 }

@@ -45,8 +45,7 @@ bool can_become(const GatewayUser& user) {
 
 GatewayUser gateway_user_named(const std::string& name) {
   const auto user = find_user(name);
-  if (!user)
-    throw InputError("there is no such user: make one with adduser --system " + std::string(kOwnUser));
+  if (!user) throw InputError("there is no such user: make it with adduser --system " + name);
   if (user->uid == 0) throw InputError("a user without privileges is allowed");
   if (::geteuid() == static_cast<uid_t>(user->uid)) return {};
   if (::geteuid() != 0)

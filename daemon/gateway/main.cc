@@ -95,8 +95,7 @@ int run() {
 int main(int count, char**) {
   if (count > 1) {
     std::fputs(
-        "strainwave-gateway: takes no options: it is started by strainwaved, or for it by the service "
-        "manager, never by hand "
+        "strainwave-gateway: takes no options: strainwaved or the service manager starts it, never a user "
         "(docs/security.md)\n",
         stderr);
     return 2;
@@ -104,7 +103,7 @@ int main(int count, char**) {
   try {
     return run();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "strainwave-gateway: %s: it is started by strainwaved, not by hand\n", error.what());
+    std::fprintf(stderr, "strainwave-gateway: %s: only strainwaved starts this program\n", error.what());
     return 1;
   }
 }

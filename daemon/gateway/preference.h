@@ -20,9 +20,8 @@ inline std::string prefer_this_thread() {
   if (::setpriority(PRIO_PROCESS, 0, kPreferredNice) == 0) return "";
   const std::string nice = std::to_string(kPreferredNice);
   return "nice " + nice + " is refused (" + std::generic_category().message(errno) +
-         "): under load, orders and stops wait behind other programs; the process needs CAP_SYS_NICE "
-         "(container: "
-         "--cap-add SYS_NICE) or RLIMIT_NICE: run under the service, or after `ulimit -e " +
+         "): under load, orders and stops wait behind other programs. The process needs CAP_SYS_NICE "
+         "(container: --cap-add SYS_NICE) or RLIMIT_NICE: run it as the service, or after `ulimit -e " +
          std::to_string(20 - kPreferredNice) + "`";
 }
 

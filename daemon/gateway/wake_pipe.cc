@@ -13,7 +13,7 @@ namespace strainwave {
 WakePipe::WakePipe() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0)
-    throw std::system_error(errno, std::generic_category(), "making the gateway's wake");
+    throw std::system_error(errno, std::generic_category(), "making the gateway's wake pipe");
   core_end_.reset(ends[0]);
   gateway_end_.reset(ends[1]);
 }

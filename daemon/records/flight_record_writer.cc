@@ -154,8 +154,8 @@ bool FlightRecordWriter::write(const std::string& name, const std::string& text,
 bool FlightRecordWriter::make_room(std::uintmax_t size, std::string& problem) {
   const auto bound = static_cast<std::uintmax_t>(config_.max_total_MB * kBytesPerMB);
   if (size > bound) {
-    problem =
-        "it has " + std::to_string(size) + " bytes, recorder.max_total_MB allows " + std::to_string(bound);
+    problem = "it has " + std::to_string(size) + " bytes, and recorder.max_total_MB allows " +
+              std::to_string(bound) + " bytes";
     return false;
   }
   std::error_code error;

@@ -79,7 +79,7 @@ TEST_F(ReturningAdapter, IsJoinedAnewByTheDaemonAndByWhoeverListens) {
     EXPECT_TRUE(hears_states(recording));
     EXPECT_TRUE(stops(client)) << daemon.log();
   }
-  EXPECT_NE(daemon.log().find("what the gateway publishes does not come back"), std::string::npos)
+  EXPECT_NE(daemon.log().find("the gateway does not receive its own messages"), std::string::npos)
       << daemon.log();
   EXPECT_EQ(daemon.log().find("signal "), std::string::npos) << "the filter of system calls ended a gateway\n"
                                                              << daemon.log();

@@ -60,7 +60,7 @@ TEST_F(InstanceLockTest, WantsADirectoryThatNobodyElseCanWrite) {
   std::filesystem::create_directory(folder_);
   for (const mode_t mode : {0777U, 0775U, 01777U}) {
     ASSERT_EQ(::chmod(folder_.c_str(), mode), 0);
-    EXPECT_NE(error_of("prefix SW").find("others may write"), std::string::npos) << mode;
+    EXPECT_NE(error_of("prefix SW").find("other users may write"), std::string::npos) << mode;
   }
   ASSERT_EQ(::chmod(folder_.c_str(), 0755), 0);
   EXPECT_EQ(error_of("prefix SW"), "accepted");
@@ -69,7 +69,7 @@ TEST_F(InstanceLockTest, WantsADirectoryThatNobodyElseCanWrite) {
 TEST_F(InstanceLockTest, FollowsNoLinkToAnotherPlace) {
   std::filesystem::create_directory(temporary_.path() / "elsewhere");
   std::filesystem::create_directory_symlink(temporary_.path() / "elsewhere", folder_);
-  EXPECT_NE(error_of("prefix SW").find("no directory"), std::string::npos);
+  EXPECT_NE(error_of("prefix SW").find("not a directory"), std::string::npos);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST_F(DaemonSystem, AnswersAResentOrderTheSameWayAndObeysItOnce) {
 
 TEST_F(DaemonSystem, SaysHowToGoOnWhenItRefuses) {
   start();
-  EXPECT_NE(client_->move("elbow", 0.1).text.find("needs it enabled"), std::string::npos);
+  EXPECT_NE(client_->move("elbow", 0.1).text.find("enable it first"), std::string::npos);
   EXPECT_NE(client_->command("elbow", Action::kEnable).text.find("load a gain table"), std::string::npos);
 }
 

@@ -121,7 +121,7 @@ TEST_F(DaemonPaths, AreRefusedByJointKnotAndLimitBeforeAnythingMoves) {
   }
   const Answer incomplete = client_.command("elbow", Action::kResume);
   EXPECT_FALSE(incomplete.accepted);
-  EXPECT_NE(incomplete.text.find("the path has the parts of 5 of its 6 joints"), std::string::npos)
+  EXPECT_NE(incomplete.text.find("the daemon has the path's parts for 5 of its 6 joints"), std::string::npos)
       << incomplete.text;
   client_.pump(milliseconds(100));
   for (const std::string& name : kNames)

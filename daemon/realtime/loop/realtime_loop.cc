@@ -55,7 +55,7 @@ void RealtimeLoop::start() {
     signals_.may_run.store(true, std::memory_order_release);
     thread_.join();
     throw InputError("real time refused: " + refusals_.real_time +
-                     "; or set daemon.real_time = \"ignore\" to run without (never with a real joint)");
+                     "; or set daemon.real_time = \"ignore\" (never with a real joint)");
   }
   signals_.may_run.store(true, std::memory_order_release);
 }

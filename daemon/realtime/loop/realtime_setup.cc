@@ -45,7 +45,7 @@ std::string pin_this_thread(int cpu) {
   const std::string error = error_text(errno);
   return "daemon.cpu = " + std::to_string(cpu) + ": processor " + std::to_string(cpu) + " cannot be used (" +
          error + "): this process may use " + own_status("Cpus_allowed_list") +
-         "; name one of these, or give it this one (container: --cpuset-cpus, service: AllowedCPUs)";
+         "; name one of these, or allow this one (container: --cpuset-cpus, service: AllowedCPUs)";
 }
 
 // Maps the stack's pages that the loop may reach, before it starts.
@@ -72,7 +72,7 @@ std::string lock_memory() {
   ::mallopt(M_MMAP_MAX, 0);         // NOLINT(concurrency-mt-unsafe): before the loop's thread
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return "";
   return "memory cannot be locked (" + error_text(errno) +
-         "): the process needs CAP_IPC_LOCK or RLIMIT_MEMLOCK without a limit: run under the service, or "
+         "): the process needs CAP_IPC_LOCK or RLIMIT_MEMLOCK without a limit: run it as the service, or "
          "after "
          "`ulimit -l unlimited`; a container needs --ulimit memlock=-1";
 }
@@ -81,7 +81,7 @@ std::string compaction_warning(const std::string& setting_path) {
   std::ifstream setting(setting_path);
   int allowed = 0;
   if (!(setting >> allowed) || allowed == 0) return "";
-  return "the kernel may move locked memory, and the loop would wait for it: sysctl "
+  return "the kernel may move locked memory and delay the loop: set sysctl "
          "vm.compact_unevictable_allowed=0";
 }
 
@@ -94,9 +94,9 @@ std::string make_thread_real_time(int priority, int cpu) {
     const std::string wanted = std::to_string(priority);
     return "SCHED_FIFO priority " + wanted + " is refused (" + error_text(error) +
            "): the process needs CAP_SYS_NICE or RLIMIT_RTPRIO of " + wanted +
-           ": run under the service, or after `ulimit -r " + wanted +
+           ": run it as the service, or after `ulimit -r " + wanted +
            "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted +
-           ". Where that is given, a seccomp filter is in the way, or a cgroup without real-time budget "
+           ". If it has these, a seccomp filter or a cgroup without real-time budget refuses it "
            "(container: --cpu-rt-runtime=950000)";
   }
   return "";
@@ -108,10 +108,11 @@ UniqueFd avoid_sleep_states(std::string& refusal, const std::string& file) {
   const std::int32_t latency_us = 0;
   const bool granted =
       descriptor && ::write(descriptor.get(), &latency_us, sizeof latency_us) == sizeof latency_us;
-  refusal = absent || granted ? ""
-                              : file + " cannot be written (" + error_text(errno) +
-                                    "): wake-ups may be late by the sleep states' exit times; allow the "
-                                    "service to write it";
+  refusal =
+      absent || granted
+          ? ""
+          : file + " cannot be written (" + error_text(errno) +
+                "): wake-ups may be late by the sleep states' exit times; allow the service to write it";
   return descriptor;
 }
 

@@ -114,7 +114,7 @@ TEST_F(StreamTest, CountsLateAndOutdatedSamplesEachOnTheirOwn) {
                              : orders == 2 ? Reason::kCycleIsOver
                              : orders == 3 ? Reason::kTooOld
                                            : Reason::kVelocitiesContradict;
-    daemon.daemon().text = "velocity_rad_s is 57.3 times the rate, as deg/s would be";
+    daemon.daemon().text = "velocity_rad_s is 57.3 times the rate, as if in deg/s";
   };
   auto stream = joint.stream();
   try {
@@ -123,7 +123,7 @@ TEST_F(StreamTest, CountsLateAndOutdatedSamplesEachOnTheirOwn) {
   } catch (const Refused& error) {
     EXPECT_EQ(error.reason(), Reason::kVelocitiesContradict);
     for (const char* part :
-         {"as deg/s would be", "; 1 of its samples came late, 2 quoted an old state; this stream is over"})
+         {"as if in deg/s", "; 1 of its samples came late, 2 quoted an old state; this stream is over"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
   EXPECT_EQ(stream.late(), 1);

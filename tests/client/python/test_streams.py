@@ -160,7 +160,7 @@ class Streams(PlayedOrders):
             self.assertLess(time.monotonic() - begin, step)
 
     def test_whose_velocities_contradict_hand_on_what_the_daemon_says_of_them(self):
-        words = "the joint is tracking: velocity_rad_s is 57.3 times the rate at which position_rad changes, as deg/s would be"
+        words = "the joint is tracking: velocity_rad_s is 57.3 times the rate at which position_rad changes, as if in deg/s"
         def daemon(*entry):
             order = published(*entry)
             self.answer(order, order.begins_stream, Reason.ACCEPTED if order.begins_stream else Reason.VELOCITIES_CONTRADICT,

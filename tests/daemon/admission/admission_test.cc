@@ -185,7 +185,7 @@ TEST_F(AdmissionTest, RefusesAnotherSession) {
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
   EXPECT_EQ(verdict.reason, Reason::kWrongSession);
   EXPECT_TRUE(verdict.text.ends_with(
-      "strainwaved has restarted since. See what the joint does, then send the command again"))
+      "strainwaved has restarted. See what the joint does, then send the command again"))
       << verdict.text;
 }
 
@@ -223,7 +223,7 @@ TEST_F(AdmissionTest, RefusesAnOrderThatWasKeptBackForLongerThanItLives) {
   for (const WireMessage& kept : {move, enable}) {
     const Verdict verdict = consider(kept);
     EXPECT_EQ(verdict.reason, Reason::kTooOld);
-    EXPECT_NE(verdict.text.find("delayed on its way"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("the network delayed the command"), std::string::npos) << verdict.text;
     EXPECT_FALSE(verdict.requester.authentic) << "its answer is not worth remembering";
   }
   EXPECT_EQ(admission_.ownership().owner_id(0, 1), 0);
@@ -299,7 +299,7 @@ TEST_F(AdmissionTest, SaysOfASamplesNumbersWhatIsAllowed) {
   EXPECT_EQ(text_with(&setpoint_v1::derivatives, 3),
             "derivatives = 3: 0, 1 (velocity) or 2 (acceleration, too) is allowed");
   EXPECT_EQ(text_with(&setpoint_v1::at_cycle, -1),
-            "at_cycle = -1: a cycle to come, or 0 for none, is allowed");
+            "at_cycle = -1: a future cycle, or 0 for none, is allowed");
 }
 
 TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
@@ -340,7 +340,7 @@ TEST_F(AdmissionTest, WantsASampleToSayWhenItIsFor) {
        {std::int64_t{0}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
     const Verdict verdict = judged(utime, 0);
     EXPECT_EQ(verdict.reason, Reason::kOutOfRange) << utime;
-    EXPECT_NE(verdict.text.find("which cycle it is for (at_cycle), or when it was sent (utime"),
+    EXPECT_NE(verdict.text.find("its cycle (at_cycle), or the time when it was sent (utime"),
               std::string::npos)
         << verdict.text;
   }

@@ -61,7 +61,7 @@ TEST_F(AuthorizedKeysFile, RefusesAKeyThatStandsThereTwice) {
   const std::string operator_line = to_line(key);
   key.role = Role::kEngineer;
   write(operator_line + "\n" + to_line(key) + "\n");
-  EXPECT_NE(error().find(":2: the key of line 1 again"), std::string::npos) << error();
+  EXPECT_NE(error().find(":2: repeats the key of line 1"), std::string::npos) << error();
 }
 
 TEST_F(AuthorizedKeysFile, RefusesAFileWithoutAKeyOrWithoutReadableContent) {
@@ -97,7 +97,7 @@ TEST_F(AuthorizedKeysFile, BoundsTheirNumber) {
   for (std::size_t i = 0; i <= AuthorizedKeys::kMaxKeys; ++i)
     text += to_line(some_key(Role::kOperator)) + "\n";
   write(text);
-  EXPECT_NE(error().find("more than 256 keys"), std::string::npos) << error();
+  EXPECT_NE(error().find("at most 256 keys"), std::string::npos) << error();
 }
 
 }  // namespace

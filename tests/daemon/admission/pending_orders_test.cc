@@ -107,19 +107,19 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kOutOfRange, Mode::kHolding, 2.5, 1.0}),
                   {"at_cycle", "2.5 s", "at most 1 s"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kCycleIsOver, Mode::kHolding, 8640012, 8640013}),
-                  {"at_cycle = 8640012", "this is cycle 8640013", "from 8640014"});
+                  {"at_cycle = 8640012", "this is cycle 8640013", "8640014 or later"});
   std::string wrong;
   for (const double ratio : {57.31, -1.0, 50.0})  // degrees, the wrong sign, the motor of a gear
     wrong += refusal(OrderKind::kSetpoint, {0, Reason::kVelocitiesContradict, Mode::kTracking, ratio, 1.0});
-  expect_mentions(wrong, {"is 57.31 times the rate", "as deg/s would be", "as with the opposite sign",
+  expect_mentions(wrong, {"is 57.31 times the rate", "as if in deg/s", "as if with the opposite sign",
                           "50 times the rate at which position_rad changes, and"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kStreamEnded, Mode::kTracking, 13.1042, 12.0}),
                   {"the joint is tracking and yielded to a load of 13.1 N.m (joint.limits.load_Nm allows 12)",
-                   "which ended this stream", "begin a new one once it holds"});
+                   "which ended this stream", "begin a new one once the joint holds"});
   expect_mentions(refusal(OrderKind::kUseTable, {0, Reason::kOutOfRange, Mode::kHolding, 8.0, 12.5}),
-                  {"the table's torque_limit_Nm", "may carry 8 N.m", "12.5 N.m", "at least"});
+                  {"may hold a load of 8 N.m", "holds 12.5 N.m now", "a higher torque_limit_Nm"});
   expect_mentions(refusal(OrderKind::kResumePath, {0, Reason::kWrongMode, Mode::kHolding, 1.0, 2.0}),
-                  {"the path has the parts of 1 of its 2 joints: send the others"});
+                  {"the daemon has the path's parts for 1 of its 2 joints: send the others"});
 }
 
 TEST_F(PendingOrdersTest, ThatDoNothingInTheModeThatTheyMetSayWhatDoes) {
@@ -128,15 +128,14 @@ TEST_F(PendingOrdersTest, ThatDoNothingInTheModeThatTheyMetSayWhatDoes) {
     Mode mode;
     std::string words;
   } cases[] = {
-      {OrderKind::kHold, Mode::kOff,
-       "the joint is off: it has no torque, and there is no motion to stop; enable it"},
+      {OrderKind::kHold, Mode::kOff, "the joint is off: it has no torque and no motion to stop; enable"},
       {OrderKind::kHold, Mode::kFaulted, "the joint is faulted: its drive is off already; clear the fault"},
       {OrderKind::kHold, Mode::kStopping, "it is stopping already"},
-      {OrderKind::kSetpoint, Mode::kOff, "motion needs it enabled"},
+      {OrderKind::kSetpoint, Mode::kOff, "enable it first"},
       {OrderKind::kSetpoint, Mode::kHoming, "wait until it has found home"},
-      {OrderKind::kSetpoint, Mode::kReleasing, "it is being enabled, wait until it holds"},
-      {OrderKind::kEnable, Mode::kStopping, "it is being disabled, wait until it is off"},
-      {OrderKind::kHome, Mode::kTracking, "homing begins at rest, hold it first"},
+      {OrderKind::kSetpoint, Mode::kReleasing, "it is being enabled; wait until it holds"},
+      {OrderKind::kEnable, Mode::kStopping, "it is being disabled; wait until it is off"},
+      {OrderKind::kHome, Mode::kTracking, "homing begins at rest; hold it first"},
       {OrderKind::kClearFault, Mode::kTracking, "it has no fault to clear"},
   };
   for (const auto& one : cases) {

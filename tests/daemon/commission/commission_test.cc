@@ -39,7 +39,7 @@ TEST_F(CommissionTest, RefusesWhatItCannotMeasureAndSaysWhy) {
                "model = \"rigid\"\n");
   rigid = replaced(rigid, "spring = {damping_Nms_rad = 1.0, lost_motion_rad = 0.0005}\n", "");
   rigid = replaced(rigid, "load_inertia_kgm2", "inertia_kgm2");
-  expect_mentions(refusal(rigid), {"joint.model = \"rigid\"", "\"flexible\" is allowed"});
+  expect_mentions(refusal(rigid), {"joint.model = \"rigid\"", "only \"flexible\""});
   expect_mentions(refusal(replaced(kArm, "lost_motion_rad = 0.0005", "lost_motion_rad = 0.0")),
                   {"lost_motion_rad = 0", "above 0"});
   expect_mentions(refusal(example("epos4-position.toml")), {"drive_mode"});

@@ -73,7 +73,7 @@ TEST_F(RecorderConfigTest, DoubtsADirectoryInWhichNothingCanBeWritten) {
   };
   EXPECT_EQ(doubts("not/made/yet"), "");
   std::ofstream(folder_ / "file") << "no folder";
-  expect_mentions(doubts("file/records"), {"recorder.directory = \"file/records\"", "/file is no folder"});
+  expect_mentions(doubts("file/records"), {"recorder.directory = \"file/records\"", "/file is not a folder"});
   // Root may write everywhere, unless the file system refuses it.
   const std::filesystem::path closed = folder_ / "closed";
   std::filesystem::create_directory(closed);

@@ -61,7 +61,7 @@ class BringUp(unittest.TestCase):
                     self.assertAlmostEqual(float(drive.report()['position_rad']), setpoint_rad, delta=2e-4)
                 must('disable', JOINT)
                 self.assertEqual(daemon.end(), 0, daemon.text())
-                self.assertIn('nothing is proved', daemon.text())
+                self.assertIn('stability is not proved', daemon.text())
                 drive.end()
 
     def check_start_up(self, lines):

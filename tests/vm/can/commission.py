@@ -85,7 +85,7 @@ class Commission(unittest.TestCase):
         run = subprocess.run(['./strainwaved', '--config', 'joint.toml', '--commission', JOINT, '--out', 'none'],
                              stdin=subprocess.DEVNULL, capture_output=True, text=True)
         self.assertNotEqual(run.returncode, 0)
-        self.assertIn('no terminal', run.stdout + run.stderr)
+        self.assertIn('not a terminal', run.stdout + run.stderr)
 
 
 show_and_exit([Commission])

@@ -74,7 +74,7 @@ class Odrive(unittest.TestCase):
             self.assertAlmostEqual(float(self.drive.report()['position_rad']), setpoint_rad, delta=3e-4)
         must('disable', JOINT)
         self.assertEqual(daemon.end(), 0, daemon.text())
-        self.assertIn('nothing is proved', daemon.text())
+        self.assertIn('stability is not proved', daemon.text())
 
     def test_a_joint_whose_drive_closes_a_loop_of_position_arrives(self):
         self.move_by_its_own_loop('position')
