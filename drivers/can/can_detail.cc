@@ -26,11 +26,11 @@ std::string can_detail_text(std::uint32_t drive_error) {
     case CanDetail::kInterfaceGone:
       return "the CAN interface has gone: plug it in and restart the daemon";
     case CanDetail::kFramesStuck:
-      return "frames do not leave: no node acknowledges, the bus is full, or the interface goes down";
+      return "frames are not sent: no node acknowledges, the bus is full, or the interface goes down";
     case CanDetail::kBusOff:
       return "bus-off: set the interface down and up, then clear the fault";
     case CanDetail::kErrorPassive:
-      return "the controller is error-passive";
+      return "the CAN controller is error-passive";
     case CanDetail::kForeignSender:
       return "another node sends our identifier " + hexadecimal(value, 4);
     case CanDetail::kHeartbeatMissing:
@@ -45,7 +45,7 @@ std::string can_detail_text(std::uint32_t drive_error) {
     case CanDetail::kWrongMode:
       return "the drive shows mode of operation " + std::to_string(static_cast<std::int8_t>(value & 0xFFU));
     case CanDetail::kEnableStep:
-      return "the drive stayed in " + status_text(value) + " on its way to be enabled";
+      return "the drive stayed in " + status_text(value) + " while it was being enabled";
     case CanDetail::kLeftOperation:
       return "the drive went to " + status_text(value) + " by itself";
     case CanDetail::kFaultState:
@@ -53,12 +53,12 @@ std::string can_detail_text(std::uint32_t drive_error) {
     case CanDetail::kSetupFailed:
       return "the drive could not be set up, see above";
     case CanDetail::kFlooded:
-      return "more frames arrive than a period can take";
+      return "more frames arrive than the daemon can read in a period";
     case CanDetail::kPositionLate:
       return "positions come " + std::to_string(value) +
              " us after their SYNC, later than delay_periods allows";
     case CanDetail::kNotFollowing:
-      return "the drive does not follow the torque that it is ordered, " + status_text(value);
+      return "the drive does not follow its torque order, " + status_text(value);
     case CanDetail::kQueueFull:
       return "the interface's queue is full";
   }

@@ -124,7 +124,7 @@ std::vector<std::string> require_can_interface(const std::string& name, const Ca
   const std::string link_set = "`ip link set " + name + " ";
   if (!interface.exists)
     throw InputError(name + ": there is no such interface: see `ip link`, and plug the adapter in");
-  if (!interface.is_can) throw InputError(name + ": is no CAN interface");
+  if (!interface.is_can) throw InputError(name + ": is not a CAN interface");
   if (!interface.up)
     throw InputError(name + ": is down: " + link_set + "type can bitrate " + std::to_string(bit_rate) +
                      "`, then " + link_set + "up`");
@@ -135,9 +135,9 @@ std::vector<std::string> require_can_interface(const std::string& name, const Ca
                      " bit/s, the configuration says " + std::to_string(bit_rate) + ": set it down, then " +
                      link_set + "type can bitrate " + std::to_string(bit_rate) + "`");
   if (interface.restart_ms && *interface.restart_ms != 0)
-    throw InputError(name +
-                     ": returns by itself after bus-off, and would then send old orders: set it down, then " +
-                     link_set + "type can restart-ms 0`");
+    throw InputError(
+        name + ": restarts by itself after bus-off, and would then send old orders: set it down, then " +
+        link_set + "type can restart-ms 0`");
   // Interfaces without a queue (vcan) hand frames over at once.
   const bool queues = interface.kind != "vcan" && interface.kind != "vxcan";
   if (queues && interface.transmit_queue_frames < frames_per_cycle)
@@ -146,7 +146,7 @@ std::vector<std::string> require_can_interface(const std::string& name, const Ca
                      "txqueuelen " + std::to_string(frames_per_cycle) + "`");
   if (off == 0.0) return {};
   return {name + ": runs at " + std::to_string(*interface.bit_rate) + " bit/s, the nearest to " +
-          std::to_string(bit_rate) + " that its clock has"};
+          std::to_string(bit_rate) + " that its clock allows"};
 }
 
 }  // namespace strainwave

@@ -68,8 +68,8 @@ void describe_node(SdoClient& client, ScannedNode& node) {
   const cia402::Description found = cia402::describe(client);
   node.identity = cia402::to_text(found);
   if (cia402::is_servo_drive(found))
-    node.modes =
-        found.supported_modes ? cia402::modes_text(*found.supported_modes) : "not told, there is no 6502h";
+    node.modes = found.supported_modes ? cia402::modes_text(*found.supported_modes)
+                                       : "unknown, the drive has no 6502h";
   read_mapping(client, node);
   read_temperatures(client, node);
 }

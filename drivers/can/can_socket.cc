@@ -171,7 +171,7 @@ void CanSocket::bind_to(const std::string& interface_name) {
   if (address.can_ifindex == 0)
     throw InputError(interface_name + ": there is no such interface: see `ip link`, and plug the adapter in");
   if (::bind(descriptor_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return;
-  if (errno == ENODEV) throw InputError(interface_name + ": is no CAN interface");
+  if (errno == ENODEV) throw InputError(interface_name + ": is not a CAN interface");
   fail("binding to " + interface_name);
 }
 

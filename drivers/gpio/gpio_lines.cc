@@ -100,7 +100,7 @@ LinePlace find_line(const LineOptions& options, const std::string& where) {
 std::string describe_holder(const LineInfo& info) {
   const std::string holder =
       info.consumer.empty() ? "a process without a name" : "\"" + printable(info.consumer) + "\"";
-  return "held by " + holder + ": end what uses it, or take its driver off the line";
+  return "held by " + holder + ": end the program that uses the line, or unload its driver";
 }
 
 // Lines of one chip with the same settings share one request.
@@ -115,7 +115,7 @@ std::vector<GpioLines::Group> GpioLines::group(const JointLines& lines, const st
     const LinePlace place = find_line(line, role_section(where, role));
     if (!taken.insert({place.chip_path, place.offset}).second)
       throw InputError(role_section(where, role), "line", line.line,
-                       "each line has one role: this one has two");
+                       "this line has two roles, one is allowed");
     if (place.info.held)
       throw InputError(role_section(where, role), "line", line.line, describe_holder(place.info));
     if (is_edge_input(role)) continue;

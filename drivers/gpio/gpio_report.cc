@@ -37,10 +37,10 @@ std::string level_of(const LinePlace& place, LineRole role, const LineOptions& o
   if (place.info.held) {
     const auto high =
         level_of_held_line(std::filesystem::path(place.chip_path).filename().string(), place.offset);
-    return high ? level_text(*high != options.active_low) : "(root sees it)";
+    return high ? level_text(*high != options.active_low) : "(root only)";
   }
   const bool output = is_output(role) || place.info.output;
-  return output ? "(not asked)" : level_of_free_input(place, options);
+  return output ? "(not read)" : level_of_free_input(place, options);
 }
 
 bool report_line(const GpioJointConfig& config, LineRole role, std::ostream& out) {

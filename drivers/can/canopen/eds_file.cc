@@ -122,7 +122,7 @@ class Reader {
 
   EdsFile read(std::string_view text) {
     if (text.size() > kMaxBytes)
-      throw InputError(result_.file + ": more than 4 MiB is no electronic data sheet");
+      throw InputError(result_.file + ": is larger than 4 MiB, the most for an electronic data sheet");
     if (text.starts_with(kUtf8Mark)) text.remove_prefix(kUtf8Mark.size());
     text = text.substr(0, text.find(kEndOfFile));
     while (!text.empty()) {
@@ -211,7 +211,8 @@ class Reader {
     EdsEntry entry;
     const auto unclear = [&](const char* what, const std::string& value) {
       if (entry.unclear.empty())
-        entry.unclear = "line " + std::to_string(section_line_) + ": " + what + " = '" + value + "' is none";
+        entry.unclear =
+            "line " + std::to_string(section_line_) + ": " + what + " = '" + value + "' is not valid";
     };
     entry.name = text_of(section, "parametername");
     const std::string type_text = text_of(section, "datatype");
@@ -233,7 +234,7 @@ class Reader {
       const std::string set = text_of(section, "parametervalue");
       const std::string value = set.empty() ? text_of(section, "defaultvalue") : set;
       entry.value = value_of(entry, value);
-      if (entry.bytes > 0 && !value.empty() && !entry.value) unclear("its value", value);
+      if (entry.bytes > 0 && !value.empty() && !entry.value) unclear("the value", value);
       entry.low = value_of(entry, text_of(section, "lowlimit"));
       entry.high = value_of(entry, text_of(section, "highlimit"));
     }

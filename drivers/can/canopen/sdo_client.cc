@@ -125,7 +125,7 @@ std::uint64_t SdoClient::upload_number(Entry entry, std::size_t bytes) {
   const bool padded = value.size() == 4 && bytes < 4;
   if (value.size() != bytes && !padded)
     throw SdoError(who_ + ": node " + std::to_string(node_) + ": reading " + to_text(entry) + ": " +
-                       counted(value.size(), "byte") + " came in place of " + std::to_string(bytes),
+                       counted(value.size(), "byte") + " came instead of " + std::to_string(bytes),
                    static_cast<std::uint32_t>(SdoAbort::kLengthMismatch));
   return little_endian(value.data(), bytes);
 }

@@ -115,9 +115,9 @@ PdoLayout pdo_layout(const DriveConfig& config) {
   if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo) {
     layout.temperature = map(layout.slow, {config.temperature->entry, bytes_of(config.temperature->type)});
     if (layout.temperature.pdo == 0)
-      throw InputError(
-          config.name +
-          ": TPDO2 has no room for the temperature beside the inputs: read it with way = \"sdo\"");
+      throw InputError(config.name +
+                       ": TPDO2 has no room for the temperature beside the inputs: set "
+                       "joint.can.temperature.way = \"sdo\"");
   }
   layout.mode = map(layout.slow, kMappedModeDisplay);
   layout.probe = {PdoDirection::kTransmit, 3, sync_divider(config), {}};

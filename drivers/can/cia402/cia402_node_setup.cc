@@ -130,7 +130,7 @@ void Node::read_by_sdo(CanPort& port, std::vector<std::string>& messages) {
       sdo_temperature_.put(
           {temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))), now_ns});
     }
-    if (sdo_failed_) messages.push_back(config_.name + ": what is read by SDO can be read again");
+    if (sdo_failed_) messages.push_back(config_.name + ": reading by SDO works again");
     sdo_failed_ = false;
   } catch (const InputError& error) {
     if (!sdo_failed_) messages.emplace_back(error.what());

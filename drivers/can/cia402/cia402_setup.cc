@@ -64,33 +64,33 @@ void wait_until_it_answers(SdoClient& client, const DriveConfig& config) {
   } while (client.port().now_ns() < deadline_ns);
   const std::string within = " within boot_timeout_s = " + std::to_string(config.boot_timeout_s);
   if (took_ns)
-    refuse(client, "answers an SDO in " + std::to_string(*took_ns / 1'000'000) + " ms, at most " +
+    refuse(client, "needs " + std::to_string(*took_ns / 1'000'000) + " ms to answer an SDO, at most " +
                        std::to_string(kSlowestAnswer_ns / 1'000'000) + " ms are allowed" + within +
-                       ": look for traffic on the bus that delays it, or for its setting of the SDO server");
+                       ": check the traffic on the bus, and the drive's settings of its SDO server");
   refuse(client,
          "no answer" + within +
-             ": check supply, node_id, bit rate and wiring; `strainwavectl can-scan` shows who answers");
+             ": check supply, node_id, bit rate and wiring; `strainwavectl can-scan` lists the nodes");
 }
 
 void reset_communication(SdoClient& client, const DriveConfig& config) {
   if (!client.reset_communication(boot_timeout_ns(config)))
     refuse(client, "no boot-up message within boot_timeout_s = " + std::to_string(config.boot_timeout_s) +
-                       " of the reset of its communication: it takes longer to start, or does not reset");
+                       " after the reset of its communication: it needs longer to start, or did not reset");
 }
 
 /// Some drives need time to start; until then their heartbeat would look like a lost network state.
 void start_node(SdoClient& client, const DriveConfig& config) {
   client.send_nmt(NmtCommand::kStart);
   if (!client.wait_for_state(canopen::NmtState::kOperational, boot_timeout_ns(config)))
-    refuse(client, "no heartbeat shows it operational within boot_timeout_s = " +
-                       std::to_string(config.boot_timeout_s) + " of the network's start");
+    refuse(client, "no heartbeat shows the state operational within boot_timeout_s = " +
+                       std::to_string(config.boot_timeout_s) + " after the order to start the node");
 }
 
 void check_identity(SdoClient& client, const Identity& wanted, const Description& found) {
   const auto compare = [&](const char* key, std::optional<std::uint32_t> want, std::uint32_t have) {
     if (want && *want != have)
-      refuse(client, std::string(key) + " = " + hexadecimal(*want, 8) + " is wanted, the drive has " +
-                         hexadecimal(have, 8) + ": it is another drive than the configuration means (" +
+      refuse(client, std::string(key) + " = " + hexadecimal(*want, 8) + ", but the drive has " +
+                         hexadecimal(have, 8) + ": it is not the drive of the configuration (" +
                          to_text(found) + ")");
   };
   compare("vendor_id", wanted.vendor_id, found.vendor_id);
@@ -110,27 +110,27 @@ void configure_supervision(SdoClient& client, const DriveConfig& config, std::ve
     refuse(
         client,
         "takes neither 1016h (supervision of our heartbeat) nor 1400h:05 (deadline of RPDO1): nothing would "
-        "stop it when this daemon dies; it cannot be driven");
+        "stop it when this daemon dies, and the daemon refuses to drive it");
   if (!has_deadline)
     report.push_back(
-        client.who() + ": the drive has no deadline of RPDO1 (1400h:05): it misses this daemon " +
+        client.who() +
+        ": the drive has no deadline of RPDO1 (1400h:05): it notices the loss of this daemon " +
         std::to_string(thousandths(config.our_heartbeat_timeout_s)) +
-        " ms after its last heartbeat, and not at all while another node sends the same heartbeat");
+        " ms after the last heartbeat, and not at all while another node sends the same heartbeat");
   if (!hears_heartbeat)
     report.push_back(client.who() +
-                     ": the drive does not take 1016h: only the deadline of RPDO1 (1400h:05) tells it that "
-                     "this daemon is gone");
+                     ": the drive does not take 1016h: it notices the loss of this daemon only by the "
+                     "deadline of RPDO1 (1400h:05)");
   const std::uint32_t heartbeat_ms = thousandths(config.drive_heartbeat_s);
   if (!client.write_if_writable({kProducerHeartbeat_ms, heartbeat_ms, 2, ~0U, "the drive's heartbeat"}))
-    refuse(client,
-           "takes no heartbeat period of " + std::to_string(heartbeat_ms) +
-               " ms (1017h): give its own as drive_heartbeat_s; without a heartbeat it cannot be driven");
+    refuse(client, "does not take a heartbeat period of " + std::to_string(heartbeat_ms) +
+                       " ms (1017h): set drive_heartbeat_s to its own; without a heartbeat it is refused");
   if (!client.write_if_writable({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2,
                                  ~0U, "reaction to a lost connection"}))
     report.push_back(
         client.who() +
-        ": the drive does not take 6007h: what it does without our heartbeat is its own choice. Kill the "
-        "daemon while the unloaded joint moves slowly, and see it stop, before it is used");
+        ": the drive does not take 6007h: it decides by itself what it does without our heartbeat. Before "
+        "use, kill the daemon while the unloaded joint moves slowly, and check that it stops");
   if (config.quick_stop_option)
     client.write_verified({kQuickStopOption, static_cast<std::uint16_t>(*config.quick_stop_option), 2, ~0U,
                            "reaction to a quick stop"});
@@ -172,7 +172,7 @@ void take_torque_off(SdoClient& client, const DriveConfig& config) {
   };
   while (has_torque()) {
     if (client.port().now_ns() >= deadline_ns)
-      refuse(client, "does not leave operation when the voltage is ordered off");
+      refuse(client, "stays enabled after the order to disable voltage");
     (void)client.port().wait(kPoll_ns);
   }
 }
@@ -201,7 +201,7 @@ Description identify_drive(SdoClient& client, const DriveConfig& config) {
   wait_until_it_answers(client, config);
   Description description = describe(client);
   if (!is_servo_drive(description))
-    refuse(client, "is no CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type, 8) +
+    refuse(client, "is not a CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type, 8) +
                        ", the profile must be 0192h");
   check_identity(client, config.identity, description);
   if (client.two_answer(kDeviceType, kSecondAnswer_ns))
@@ -228,8 +228,8 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
     leave_out(layout.fast, layout.torque);
     found.report.push_back(
         client.who() +
-        ": the drive has no 6076h: it is sent no torque, nothing is learned of its friction, "
-        "and it limits its torque by itself");
+        ": the drive has no 6076h: the daemon sends it no torque and learns nothing of its friction, "
+        "and the drive limits its torque by itself");
   }
   configure_pdos(client, config, layout, found.report);
   if (config.inputs.index != ProbeSource::kNone)

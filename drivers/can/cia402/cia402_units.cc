@@ -85,8 +85,8 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
   const double expected_Nm = rated.current_mA * 1e-3 * units.torque_constant_Nm_A;
   if (fits(motor_Nm, expected_Nm)) return motor_Nm * units.gear_ratio;
   std::ostringstream text;
-  text << where << ": rated torque 6076h = " << rated.torque << " is " << motor_Nm << " N.m at the motor by "
-       << setting(units.rated_torque_unit_Nm, units.torque_at_joint)
+  text << where << ": rated torque 6076h = " << rated.torque << " is " << motor_Nm
+       << " N.m at the motor with " << setting(units.rated_torque_unit_Nm, units.torque_at_joint)
        << ", but rated current 6075h = " << rated.current_mA
        << " mA times torque_constant_Nm_A = " << units.torque_constant_Nm_A << " is " << expected_Nm
        << " N.m: ";
@@ -95,7 +95,7 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
     text << "no unit makes them agree; check 6075h and 6076h against the motor's data sheet, and the torque "
             "constant";
   else
-    text << fitting << " would agree; check which it is before any torque is applied";
+    text << fitting << " would agree; check which setting is right before you apply torque";
   throw InputError(text.str());
 }
 
@@ -105,14 +105,15 @@ std::string velocity_unit_text(std::uint32_t unit, const UnitConfig& units, cons
   const std::string object = "60A9h = " + hexadecimal(unit, 8);
   const std::optional<VelocityUnit> found = velocity_unit(unit);
   if (!found)
-    return where + ": the unit of velocity is taken from " + given +
-           " alone: " + (unit == 0 ? "the drive does not say it (60A9h)" : object + " is not known here");
+    return where + ": the unit of velocity is unchecked: " + given + " is used, and " +
+           (unit == 0 ? "the drive does not give its unit (60A9h)" : "the daemon does not know " + object);
   const double at_motor_rad_s = found->rad_s / units.gear_ratio;
   const std::string says = "the drive's unit of velocity is " + found->text + " (" + object + ")";
-  if (is_near(given_rad_s, at_motor_rad_s)) return where + ": " + says + ", taken at the motor by " + given;
-  if (is_near(given_rad_s, found->rad_s)) return where + ": " + says + ", taken at the joint by " + given;
+  if (is_near(given_rad_s, at_motor_rad_s))
+    return where + ": " + says + ", at the motor according to " + given;
+  if (is_near(given_rad_s, found->rad_s)) return where + ": " + says + ", at the joint according to " + given;
   throw InputError(where + ": " + given + ", but " + says + ": " + number_text(at_motor_rad_s) +
-                   " is allowed if that is the motor's, " + number_text(found->rad_s) +
+                   " is allowed if this is the motor's velocity, " + number_text(found->rad_s) +
                    " if it is the joint's");
 }
 
@@ -120,8 +121,8 @@ std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig&
   if (rated_Nm <= kMostRatedShare * limit_Nm) return std::nullopt;
   std::ostringstream text;
   text << "torque_constant_Nm_A = " << units.torque_constant_Nm_A << " gives " << rated_Nm
-       << " N.m at the joint with the rated current alone, torque_limit_Nm is " << limit_Nm
-       << ": if that is the joint's constant, the motor's is "
+       << " N.m at the joint with the rated current, but torque_limit_Nm is " << limit_Nm
+       << "; if the constant is the joint's, the motor's is "
        << units.torque_constant_Nm_A / units.gear_ratio;
   return text.str();
 }

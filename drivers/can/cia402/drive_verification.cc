@@ -106,8 +106,8 @@ std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config,
       delays_ns.push_back(*delay_ns);
   const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
   if (delays_ns.empty())
-    throw InputError(
-        who + "no position came within 20 ms of a SYNC, though some come: is there another SYNC producer?");
+    throw InputError(who +
+                     "positions come, but none within 20 ms of a SYNC: is there another SYNC producer?");
   std::sort(delays_ns.begin(), delays_ns.end());
   const std::int64_t delay_ns = delays_ns[delays_ns.size() / 2];
   if (delay_ns > config.delay_periods * period_ns)

@@ -76,7 +76,7 @@ class DataSheetDrive final : public CanPort {
       const auto found = values_.find(entry);
       if (found == values_.end() || found->second != 0 || value == 0) return;
       found->second = value;
-      note("not checked: " + to_text(entry) + " has no value in the data sheet; taken is " + what);
+      note("not checked: " + to_text(entry) + " has no value in the data sheet; the check assumes " + what);
     };
     const Identity& identity = config_.identity;
     assume({0x1000, 0}, kServoDrive, "a servo drive");
@@ -174,7 +174,7 @@ class DataSheetDrive final : public CanPort {
                                                  : static_cast<std::int64_t>(raw);
     if ((object->high && value > *object->high) || (object->low && value < *object->low))
       note(to_text(entry) + ": start-up writes " + std::to_string(value) +
-           ", which the data sheet's limits do not allow; they are often wrong, the drive decides");
+           ", which the data sheet's limits do not allow; they are often wrong, and the drive decides");
     const bool mapping = (entry.index >= 0x1600 && entry.index < 0x1800) || entry.index >= 0x1A00;
     if (mapping && entry.index < 0x1C00)
       if (const Abort refused = map(entry, raw); refused != Abort::kNone) return refused;
@@ -221,8 +221,8 @@ std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const Dri
   std::vector<std::string> report;
   if (config.node_id != wanted.node_id)
     report.push_back(config.name + ": node_id = " + std::to_string(wanted.node_id) +
-                     ", but the data sheet is of node " + std::to_string(eds.node_id) +
-                     " and checked as such");
+                     ", but the data sheet is for node " + std::to_string(eds.node_id) +
+                     "; the check uses that");
   DataSheetDrive drive(eds, config);
   try {
     canopen::SdoClient client(drive, config.node_id, config.name);
@@ -232,10 +232,9 @@ std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const Dri
     if (config.temperature && config.temperature->way == TemperatureObject::Way::kSdo) try {
         (void)client.upload_number(config.temperature->entry, bytes_of(config.temperature->type));
       } catch (const InputError& error) {
-        throw InputError(
-            error.what() +
-            std::string(", as joint.can.temperature has it: give index, sub_index and type of an "
-                        "object of this drive, or leave that table out"));
+        throw InputError(error.what() +
+                         std::string(", for joint.can.temperature: give index, sub_index and type of an "
+                                     "object of this drive, or leave that table out"));
       }
     for (const std::string& note : drive.notes()) report.push_back(config.name + ": " + note);
     report.insert(report.end(), found.report.begin(), found.report.end());

@@ -105,7 +105,7 @@ void configure_own_loop(SdoClient& client, const DriveConfig& config, std::vecto
   clear_offset(client, kVelocityOffset, 4, "velocity offset");
   if (!config.quick_stop_option &&
       !client.write_if_writable({kQuickStopOption, kStopOnRamp, 2, ~0U, "reaction to a quick stop"}))
-    report.push_back(client.who() + ": the drive does not take 605Ah: how it stops is its own choice");
+    report.push_back(client.who() + ": the drive does not take 605Ah: it decides by itself how it stops");
   if (config.drive_mode != DriveMode::kPosition || config.following_error_rad <= 0.0) return;
   const auto window = client.upload_if_there(kFollowingErrorWindow, 4);
   std::ostringstream text;

@@ -116,14 +116,14 @@ void leave_out(Pdo& pdo, PdoLayout::Field& field) {
 void configure_pdos(SdoClient& client, const DriveConfig& config, PdoLayout& layout,
                     std::vector<std::string>& report) {
   configure_with_optional(client, layout.command, layout.torque_offset, report,
-                          "the drive cannot take 60B2h: its loop learns of friction only by its error");
+                          "the drive cannot take 60B2h: its loop gets no torque feed-forward for friction");
   configure_with_optional(client, layout.offsets, layout.velocity_offset, report,
-                          "the drive cannot take 60B1h: its loop makes the velocity from its error");
+                          "the drive cannot take 60B1h: its loop gets no velocity feed-forward");
   PdoLayout::Field none;
   configure_with_optional(client, layout.fast, closes_loop(config.drive_mode) ? layout.torque : none, report,
-                          "the drive cannot send 6077h: nothing is learned of its friction");
+                          "the drive cannot send 6077h: the daemon learns nothing of its friction");
   configure_with_optional(client, layout.slow, layout.mode, report,
-                          "the drive cannot send 6061h in TPDO2, its mode is read by SDO");
+                          "the drive cannot send 6061h in TPDO2: the daemon reads its mode by SDO");
   configure_with_optional(client, layout.probe, none, report, "");
   switch_off_other_pdos(client, layout);
 }

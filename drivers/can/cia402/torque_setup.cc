@@ -72,9 +72,8 @@ void configure_torque_path(SdoClient& client, const DriveConfig& config, Operati
                            std::vector<std::string>& report) {
   const auto polarity = client.upload_if_there(kPolarity, 1);
   if (polarity.value_or(0) != 0)
-    refuse(client,
-           "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
-               " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
+    refuse(client, "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
+                       " inverts signs in the drive: set it to 0 and store it, and use `direction` instead");
   clear_offset(client, kTorqueOffset, 2, "torque offset");
   if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
   // The slope allows the change from full negative to full positive torque within a period.

@@ -32,7 +32,7 @@ std::string drive_error_text(std::uint32_t drive_error) {
     case CanDetail::kEnableStep:
       return "the axis did not reach closed loop; it is in state " + std::to_string(detail_value_of(detail));
     case CanDetail::kLeftOperation:
-      return "the axis left closed loop by itself, for state " + std::to_string(detail_value_of(detail));
+      return "the axis left closed loop by itself, to state " + std::to_string(detail_value_of(detail));
     default:
       return can_detail_text(detail);
   }

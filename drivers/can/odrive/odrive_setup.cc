@@ -39,7 +39,7 @@ bool listen(CanPort& port, const DriveConfig& config, std::int64_t duration_ns,
 
 void send(CanPort& port, const DriveConfig& config, const CanFrame& frame) {
   if (port.send(frame) != SendResult::kSent)
-    throw InputError(where(config) + ": the CAN interface takes no frame");
+    throw InputError(where(config) + ": the CAN interface does not accept a frame");
 }
 
 /// Sends `request` and returns the first frame with `answer`'s identifier that `decode` accepts.
@@ -65,11 +65,11 @@ std::string check_version(CanPort& port, const DriveConfig& config) {
                                     Command::kVersion, decode_version);
   if (!version)
     throw InputError(where(config) +
-                     " does not tell its version: check node_id, bit rate and wiring; firmware 0.5 has no "
+                     " does not give its version: check node_id, bit rate and wiring; firmware 0.5 has no "
                      "such message, and is not supported");
   if (version->firmware_major != 0 || version->firmware_minor != 6)
     throw InputError(where(config), "firmware", version_text(*version),
-                     "must be 0.6: others number their messages otherwise");
+                     "must be 0.6: other versions number their messages differently");
   return where(config) + ": firmware " + version_text(*version);
 }
 
@@ -84,7 +84,7 @@ std::string check_watchdog(CanPort& port, const DriveConfig& config) {
         ask<Value>(port, config, read_parameter_frame(config.node_id, endpoint), Command::kParameter,
                    [&](const CanFrame& frame) { return decode(frame, endpoint); });
     if (!value)
-      throw InputError(where(config) + " does not tell its parameter " + std::to_string(endpoint) +
+      throw InputError(where(config) + " does not give its parameter " + std::to_string(endpoint) +
                        ": take enabled_endpoint and timeout_endpoint of [joint.can.watchdog] from the "
                        "flat_endpoints.json of its firmware");
     return *value;

@@ -72,7 +72,7 @@ TEST_F(DataSheets, TheExampleForAStrainWaveActuatorStartsItsOwnDriveByInterpolat
 
 TEST_F(DataSheets, TheUnitOfVelocityIsComparedWithTheDrives) {
   expect_mentions(check(example("epos4-position.toml"), "epos4.eds"),
-                  {"1 rev/min (60A9h = 00B44700h), taken at the motor"});
+                  {"1 rev/min (60A9h = 00B44700h), at the motor"});
   expect_mentions(
       check(replaced(example("epos4-position.toml"), "= 0.0020943951", "= 0.020943951"), "epos4.eds"),
       {"refused", "velocity_rad_s_per_unit = 0.020943951", "00B44700h"});
@@ -125,7 +125,7 @@ TEST_F(DataSheets, AConfiguredDriveIsJudgedByWhatItIsSetTo) {
   const auto check_with = [&](const std::string& config) { return check(config, folder_ / "set.dcf"); };
   const std::string right = check_with(example("epos4.toml"));
   EXPECT_EQ(right.find("refused"), std::string::npos) << right;
-  expect_mentions(right, {"node_id = 1, but the data sheet is of node 7", "node 7, "});
+  expect_mentions(right, {"node_id = 1, but the data sheet is for node 7", "node 7, "});
   for (const char* known : {"6502h:00 has no value", "6076h:00 has no value", "1018h:01 has no value"})
     EXPECT_EQ(right.find(known), std::string::npos) << right;
   expect_mentions(check_with(replaced(example("epos4.toml"), "\"uNm\"", "\"mNm\"")),

@@ -129,7 +129,7 @@ TEST(CanInterface, NeedsNoQueueWhereFramesAreHandedOverAtOnce) {
 
 TEST(CanInterface, ThatIsAbsentOrOfAnotherKindIsRefused) {
   EXPECT_NE(refusal(inspect_can_interface("no-such-link")).find("no such interface"), std::string::npos);
-  EXPECT_NE(refusal(inspect_can_interface("lo")).find("no CAN interface"), std::string::npos);
+  EXPECT_NE(refusal(inspect_can_interface("lo")).find("not a CAN interface"), std::string::npos);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(EdsFile, NotesWhatIsUnclearWithTheEntryAndItsLine) {
        {std::pair<std::string, std::string>{"DataType=long\nAccessType=ro\n", "line 6: DataType = 'long'"},
         {"DataType=0x4\nAccessType=maybe\n", "AccessType = 'maybe'"},
         {"DataType=0x4\n", "AccessType = ''"},
-        {"DataType=0x4\nAccessType=ro\nDefaultValue=five\n", "its value = 'five'"}}) {
+        {"DataType=0x4\nAccessType=ro\nDefaultValue=five\n", "the value = 'five'"}}) {
     const EdsFile eds = parse(kTorque + "\n[6064]\n" + text);
     EXPECT_NE(eds.find({0x6064, 0})->unclear.find(part), std::string::npos)
         << part << " in: " << eds.find({0x6064, 0})->unclear;

@@ -46,7 +46,7 @@ TEST_F(Cia402LeanDrive, Without1016hNeedsTheDeadlineOfItsRpdo) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x1016 1" + std::string(kNoObject));
   bench.start();
-  expect_mentions(bench.said(), {"not take 1016h", "only the deadline of RPDO1"});
+  expect_mentions(bench.said(), {"not take 1016h", "only by the deadline of RPDO1"});
   EXPECT_TRUE(bench.enable());
   bench.end();
   EXPECT_EQ(bench.node().drive().power(), can_nodes::PowerState::kSwitchOnDisabled);
@@ -62,8 +62,7 @@ TEST_F(Cia402LeanDrive, WithAHeartbeatOfItsOwnIsTakenWhenThatIsAsWanted) {
     DriveBench bench({bench_drive(3)});
     bench.can().run_to(kBooted_ns);
     store(bench, {0x1017, 0}, period_ms, can_nodes::Access::kReadOnly);
-    expect_mentions(bench.start_refusal(),
-                    {period_ms == 50 ? "accepted" : "(1017h): give its own as drive_heartbeat_s"});
+    expect_mentions(bench.start_refusal(), {period_ms == 50 ? "accepted" : "(1017h): set drive_heartbeat_s"});
   }
 }
 
@@ -71,7 +70,7 @@ TEST_F(Cia402LeanDrive, Without6007hSaysWhatIsToBeTried) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x6007 0" + std::string(kNoObject));
   bench.start();
-  expect_mentions(bench.said(), {"not take 6007h", "Kill the daemon", "see it stop"});
+  expect_mentions(bench.said(), {"not take 6007h", "kill the daemon", "check that it stops"});
   EXPECT_TRUE(bench.enable());
 }
 
@@ -98,7 +97,7 @@ TEST_F(Cia402LeanDrive, ThatCannotMap6061hIsAskedForItsModeBySdo) {
   mode.mappable = can_nodes::Mappable::kNo;
   bench.node().dictionary().add({0x6061, 0}, mode);
   bench.start();
-  expect_mentions(bench.said(), {"6061h", "read by SDO"});
+  expect_mentions(bench.said(), {"6061h", "reads its mode by SDO"});
   ASSERT_TRUE(bench.enable());
   bench.bus().serve();
   bench.run(20, {1.0, true});
@@ -126,7 +125,7 @@ TEST_F(Cia402LeanDrive, ThatLetsAnEntryOnlyBeReadIsTakenWhereItsValueDoesNoHarm)
   DriveBench other({drive});
   store(other, {0x605A, 0}, 6, Access::kReadOnly);
   other.start();
-  expect_mentions(other.said(), {"not take 605Ah", "its own choice", "not take 6007h"});
+  expect_mentions(other.said(), {"not take 605Ah", "decides by itself how it stops", "not take 6007h"});
 
   DriveBench offset({drive});
   store(offset, {0x60B2, 0}, 20, Access::kReadOnly);

@@ -88,7 +88,7 @@ TEST(Cia402OwnLoop, DoesWithoutWhatADriveNeedNotHave) {
   drive = own_loop(DriveMode::kPosition);
   drive.node.lacks = {0x6075, 0x6076};
   OwnLoop without_unit(drive);
-  expect_mentions(without_unit.bench.said(), {"no 6076h", "sent no torque"});
+  expect_mentions(without_unit.bench.said(), {"no 6076h", "sends it no torque"});
   EXPECT_FALSE(without_unit.bench.reading().torque_measured);
 }
 

@@ -60,7 +60,7 @@ TEST(Cia402Setup, RefusesAnotherDriveThanTheConfigurationMeans) {
   BenchDrive drive = bench_drive(3);
   drive.config.identity.vendor_id = 0x0000009A;
   expect_mentions(DriveBench({drive}).start_refusal(),
-                  {"vendor_id = 0000009Ah", "000000FBh", "another drive"});
+                  {"vendor_id = 0000009Ah", "000000FBh", "not the drive of the configuration"});
   drive = bench_drive(3);
   drive.config.identity.serial_number = 7;
   expect_mentions(DriveBench({drive}).start_refusal(), {"serial_number = 00000007h", "00000001h"});

@@ -75,9 +75,9 @@ TEST(VelocityUnit, IsComparedWithTheDrivesOnEitherSideOfTheGear) {
 TEST(VelocityUnit, ThatTheDriveDoesNotSayIsTakenFromTheConfiguration) {
   UnitConfig units = motor_units();
   units.velocity_rad_s_per_unit = 0.5;
-  testing::expect_mentions(velocity_unit_text(0, units, "elbow"), {"0.5 alone", "does not say"});
+  testing::expect_mentions(velocity_unit_text(0, units, "elbow"), {"0.5 is used", "does not give its unit"});
   testing::expect_mentions(velocity_unit_text(0x00770300, units, "elbow"),
-                           {"0.5 alone", "00770300h", "not known"});
+                           {"0.5 is used", "00770300h", "does not know"});
 }
 
 TEST(RatedTorque, AllowsForPeakAndRmsAmperes) {

@@ -23,7 +23,7 @@ TEST_F(OdriveDriver, RefusesAnotherFirmware) {
 
 TEST_F(OdriveDriver, RefusesANodeThatDoesNotAnswer) {
   node_config_.node_id = 3;
-  EXPECT_NE(refusal().find("does not tell its version"), std::string::npos);
+  EXPECT_NE(refusal().find("does not give its version"), std::string::npos);
 }
 
 TEST_F(OdriveDriver, RefusesAWatchdogThatIsOffOrTooSlow) {
