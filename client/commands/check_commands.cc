@@ -34,7 +34,7 @@ void check(const Output& output, const std::filesystem::path& config,
 }  // namespace
 
 void gpio_check(const Output& output, const std::filesystem::path& config) {
-  check(output, config, {"--config", config.string(), "--check-lines"}, "not every line can be used");
+  check(output, config, {"--config", config.string(), "--check-lines"}, "some digital lines cannot be used");
 }
 
 void can_check(const Output& output, const std::filesystem::path& config,
@@ -44,7 +44,7 @@ void can_check(const Output& output, const std::filesystem::path& config,
     arguments.emplace_back("--check-drives");
   else
     arguments.insert(arguments.end(), {"--check-data-sheet", data_sheet.string()});
-  check(output, config, arguments, "start-up would refuse it");
+  check(output, config, arguments, "strainwaved would refuse to start with it");
 }
 
 }  // namespace strainwave

@@ -96,7 +96,8 @@ class CommissionRun {
   /// Returns whether `path` has to be made. If it exists, prints that it is kept.
   bool is_missing(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return true;
-    if (!output_.json) output_.stream << path.string() << ": kept; delete it to have it made again\n";
+    if (!output_.json)
+      output_.stream << path.string() << ": kept; to make it anew, delete it and repeat the command\n";
     return false;
   }
 
@@ -108,15 +109,16 @@ class CommissionRun {
                         {arguments_.joint, {}, {}, {}, {}});
     };
     if (before && before->joint != arguments_.joint)
-      refuse(file("commission.json"), "is of joint " + before->joint + ": name another folder with --out");
+      refuse(file("commission.json"),
+             "belongs to joint " + before->joint + ": name another folder with --out");
     if (std::filesystem::exists(configuration()) &&
         std::filesystem::equivalent(configuration(), arguments_.config))
-      refuse(configuration(), "would be written over: name another folder with --out");
+      refuse(configuration(), "would be overwritten: name another folder with --out");
     if (before && before->configuration_text == read_text_file(arguments_.config)) return;
     for (const std::filesystem::path& made : {file("friction.json"), file("table.json"), configuration()})
       if (std::filesystem::exists(made))
         refuse(made,
-               "is of another measurement, and the joint is to be measured anew: delete it, or name "
+               "belongs to an earlier measurement, and the joint must be measured again: delete it, or name "
                "another folder with --out");
   }
 

@@ -60,9 +60,10 @@ JointToDesign read_joint_to_design(const std::filesystem::path& config, const st
   for (TomlSection& joint : file.sections("joint")) {
     if (joint.text("name") != name) continue;
     if (joint.text_or("model", "") != "flexible" || !joint.has("gear"))
-      joint.fail("gear",
-                 "a joint with model = \"flexible\" and a gear of the catalogue is allowed: its friction "
-                 "over temperature is the gear's, and its stiffness the gear's times what is measured");
+      joint.fail(
+          "gear",
+          "a joint with model = \"flexible\" and a gear of the catalogue is allowed: the design takes "
+          "friction over temperature from the gear, and scales the gear's stiffness to the measured one");
     found.gear = joint.text("gear");
     if (find_gear(found.gear) == nullptr) joint.fail("gear", "one of " + gear_names() + " is allowed");
     found.joint_model = joint.text("joint_model");

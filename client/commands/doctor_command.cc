@@ -51,7 +51,9 @@ class Listening {
 
 Evidence from_event_log(const DoctorArguments& arguments) {
   if (arguments.joint.empty())
-    throw ClientError(ExitStatus::kUsage, "doctor: a log may hold several joints: name the JOINT");
+    throw ClientError(
+        ExitStatus::kUsage,
+        "doctor: an LCM event log may hold several joints: name one, as in doctor JOINT --log FILE");
   Evidence evidence = begun(arguments, arguments.joint);
   EventLogReader reader(arguments.log);
   for (LogEvent event; reader.next(event);) {
@@ -117,7 +119,11 @@ std::string to_json(const std::string& joint, const Diagnosis& diagnosis, const 
 /// Prints the findings, and throws if there is any.
 void report(const Output& output, const std::string& joint, const Evidence& evidence) {
   if (evidence.samples.size() < 2)
-    throw ClientError(ExitStatus::kUsage, fmt::format("{}: fewer than two states are no evidence", joint));
+    throw ClientError(
+        ExitStatus::kUsage,
+        fmt::format(
+            "{}: fewer than two states of this joint were found: check its name, or record for longer",
+            joint));
   const Diagnosis diagnosis = diagnose(evidence);
   output.stream << (output.json ? to_json(joint, diagnosis, evidence) : to_text(joint, diagnosis, evidence));
   output.stream.flush();
@@ -162,11 +168,10 @@ void examine_joint(Client& client, const Output& output, const DoctorArguments& 
   const double position_rad = view.state.joint_position_rad;
   const auto strokes = plan_test_motion(*evidence.limits, position_rad, arguments.reach_rad);
   if (strokes.empty())
-    throw ClientError(
-        ExitStatus::kUsage,
-        fmt::format("{}: less than 0.1 rad is free about {:.3f} rad: move it away from its limits, or "
-                    "give a larger --reach_rad",
-                    joint, position_rad));
+    throw ClientError(ExitStatus::kUsage, fmt::format("{}: less than 0.1 rad of travel is free around {:.3f} "
+                                                      "rad: move the joint away from its limits, or "
+                                                      "give a larger --reach_rad",
+                                                      joint, position_rad));
   if (!output.json || arguments.dry_run)
     say(output, plan_text(joint, strokes, *evidence.limits, position_rad),
         {{"joint", joint}, {"duration_s", duration_s(strokes, *evidence.limits, position_rad)}});

@@ -195,8 +195,9 @@ class FallingTimes {
   void report(const Output& output) const {
     if (falls_ == 0) return;
     say(output,
-        fmt::format("the times of receipt fall {}: logs were joined, or the recorder's clock was set back",
-                    falls_ == 1 ? "once" : counted(falls_, "time")),
+        fmt::format(
+            "the times of receipt jump back {}: logs were joined, or the recorder's clock was set back",
+            falls_ == 1 ? "once" : counted(falls_, "time")),
         {{"falling_times", std::int64_t{falls_}}});
   }
 
@@ -260,7 +261,8 @@ void export_flight_record(const Output& output, const ExportArguments& arguments
 void export_log(const Output& output, const ExportArguments& arguments) {
   std::error_code neither_is_there;
   if (std::filesystem::equivalent(arguments.log, arguments.out, neither_is_there))
-    throw ClientError(ExitStatus::kUsage, arguments.out.string() + " is what is read: choose another name");
+    throw ClientError(ExitStatus::kUsage,
+                      arguments.out.string() + " is the log that export reads: choose another name");
   refuse_name_of_mcap(arguments.out, arguments.mcap);
   if (is_flight_record(arguments.log)) return export_flight_record(output, arguments);
   const LogSpan span = span_of(arguments.log);  // before anything is created

@@ -52,7 +52,7 @@ void show_friction(Client& client, const Output& output, const std::string& join
 void order_learning(Client& client, const Output& output, const std::string& joint, Action action) {
   order_accepted(client, joint, action);
   const char* outcome = action == Action::kResetLearning
-                            ? "the table's friction is in use; what was learned is forgotten"
+                            ? "the table's friction is in use; learned friction and load are forgotten"
                         : action == Action::kFreezeLearning
                             ? "learned friction is frozen, until resume or a restart of the daemon"
                             : "the joint learns its friction again";

@@ -24,7 +24,7 @@ std::string hold_joint(Client& client, const std::string& joint) {
     order.action = static_cast<std::int32_t>(Action::kHold);
     const Answer answer = client.request(joint, channel_kind::kCommand, order);
     if (answer.accepted) return joint + " holds where it stops";
-    return fmt::format("{} refused the hold ({})", joint, to_text(answer.reason));
+    return fmt::format("the daemon refused to hold {} ({})", joint, to_text(answer.reason));
   } catch (const ClientError& error) {
     return fmt::format("the hold did not reach {} ({}); its stream of setpoints expires by itself", joint,
                        error.what());
@@ -60,7 +60,7 @@ void GuardedJoint::require_undisturbed() {
   if (view_.state.session_id != session_id_) fail(ExitStatus::kRefused, "the daemon was restarted");
   const Mode mode = mode_of(view_);
   if (mode == Mode::kFaulted) throw faulted(client_, joint_);
-  if (mode != Mode::kHolding && mode != Mode::kTracking) fail(ExitStatus::kRefused, "it was disabled");
+  if (mode != Mode::kHolding && mode != Mode::kTracking) fail(ExitStatus::kRefused, "the joint was disabled");
 }
 
 void GuardedJoint::fail(ExitStatus status, const std::string& why) const {

@@ -27,8 +27,8 @@ void require_holding(const JointView& view, const std::string& joint) {
   const auto mode = static_cast<Mode>(view.state.mode);
   if (mode == Mode::kFaulted)
     throw ClientError(ExitStatus::kRefused,
-                      fmt::format("{0}: is faulted: strainwavectl clear-fault {0} once its cause is gone; "
-                                  "strainwavectl doctor --log judges its flight record",
+                      fmt::format("{0}: is faulted; once the cause is gone: strainwavectl clear-fault {0}; "
+                                  "to find the cause: strainwavectl doctor --log FLIGHT_RECORD",
                                   joint));
   if (mode != Mode::kHolding)
     throw ClientError(ExitStatus::kRefused,
@@ -54,8 +54,8 @@ void GuardedStrokes::go(double target_rad, double speed_rad_s) {
       check(old_states.passed() ? std::optional(target_rad) : std::nullopt);
     }
     if (late.passed())
-      throw ClientError(ExitStatus::kRefused, fmt::format("{}: not at {:.4f} rad after {:.1f} s", joint_,
-                                                          target_rad, expected_s + kPatience_s));
+      throw ClientError(ExitStatus::kRefused, fmt::format("{}: did not arrive at {:.4f} rad in {:.1f} s",
+                                                          joint_, target_rad, expected_s + kPatience_s));
   }
 }
 
@@ -76,14 +76,15 @@ bool GuardedStrokes::arrived(double target_rad) const {
 void GuardedStrokes::check(std::optional<double> target_rad) {
   guarded_.require_undisturbed();
   if (target_rad && state().target_position_rad != *target_rad)
-    throw ClientError(ExitStatus::kRefused, joint_ +
-                                                ": another command replaced this one, or this PC was too "
-                                                "late for its own: see its notices in status");
+    throw ClientError(ExitStatus::kRefused,
+                      joint_ +
+                          ": another command replaced this one, or this PC sent its setpoints too late: see "
+                          "the notices in strainwavectl status");
   const double torque_Nm = std::abs(state().torque_applied_Nm);
   if (torque_Nm > max_torque_Nm_)
     throw ClientError(ExitStatus::kRefused,
-                      fmt::format("{}: {:.1f} N.m exceed the {:.1f} N.m that were allowed", joint_, torque_Nm,
-                                  max_torque_Nm_));
+                      fmt::format("{}: the torque of {:.1f} N.m exceeds the allowed {:.1f} N.m", joint_,
+                                  torque_Nm, max_torque_Nm_));
 }
 
 void GuardedStrokes::rest(double duration_s) {

@@ -33,9 +33,10 @@ void require_ready(const JointView& view, const std::string& joint) {
   require_holding(view, joint);
   const auto status = static_cast<TemperatureStatus>(view.state.temperature_status);
   if (status != TemperatureStatus::kValid)
-    throw ClientError(ExitStatus::kRefused,
-                      fmt::format("{}: its temperature is not known ({}), and friction means nothing without",
-                                  joint, to_text(status)));
+    throw ClientError(
+        ExitStatus::kRefused,
+        fmt::format("{}: its temperature is not known ({}), and friction depends on it: connect the sensor",
+                    joint, to_text(status)));
 }
 
 /// The log should begin with the limits, which the fit needs. The daemon publishes them once a second.
@@ -75,7 +76,9 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   });
   hold(client, output, joint);
   log.finish();
-  say(output, fmt::format("{0}: now strainwave-design fit --log {0}", arguments.file.string()),
+  say(output,
+      fmt::format("{0}: next: strainwave-design fit --log {0} --prior FRICTION.json --out NEW.json",
+                  arguments.file.string()),
       {{"joint", joint}, {"file", arguments.file.string()}});
 }
 

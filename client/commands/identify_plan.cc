@@ -29,7 +29,7 @@ std::pair<double, double> checked_range(const IdentifyArguments& arguments, cons
       arguments.range_rad.value_or(std::pair{std::max(widest.first, position_rad - kDefaultReach_rad),
                                              std::min(widest.second, position_rad + kDefaultReach_rad)});
   if (!std::isfinite(from) || !std::isfinite(to) || from >= to)
-    refuse(fmt::format("--range_rad {} {}: two positions are wanted, the smaller first", from, to));
+    refuse(fmt::format("--range_rad {} {}: the first position must be below the second", from, to));
   if (from < widest.first || to > widest.second)
     refuse(fmt::format("--range_rad {} {}: the joint's limits are {} to {} rad", from, to, widest.first,
                        widest.second));

@@ -26,7 +26,7 @@ namespace {
   const std::string* nearest = nearest_word(kind, kinds);
   throw ClientError(
       ExitStatus::kUsage,
-      fmt::format("inject: '{}' is no fault that can be injected{}; there are: {}", kind,
+      fmt::format("inject: '{}' is not a fault that can be injected{}; allowed are: {}", kind,
                   nearest != nullptr ? " (did you mean " + *nearest + "?)" : "", fmt::join(kinds, ", ")));
 }
 

@@ -58,9 +58,9 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
                {{"joints", joints}, {"path_s", path_s}, {"arrived", false}});
   const auto tell = [&](const PathPause& pause) {
     say(output,
-        pause.paused ? fmt::format("{}: paused at {:.3f} s of {:.3f} s; strainwavectl resume {} goes on",
+        pause.paused ? fmt::format("{}: paused at {:.3f} s of {:.3f} s; to continue: strainwavectl resume {}",
                                    names, pause.at_s, pause.of_s, joints.front())
-                     : fmt::format("{}: on the path again", names),
+                     : fmt::format("{}: the path continues", names),
         {{"joints", joints},
          {"path_s", path_s},
          {"arrived", false},
@@ -100,11 +100,10 @@ void require_quick_enough(const std::vector<StraightMove>& moves, const std::vec
   constexpr double kMargin = 1.01;
   const double least_rad_s = kMargin * std::abs(slowest.to_rad - slowest.from_rad) / kLongestPath_s;
   throw InvalidInput(
-      fmt::format(
-          "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s with "
-          "that speed and joints move together for at most {} s",
-          slowest.joint, slowest.speed_rad_s, least_rad_s, std::abs(slowest.to_rad - slowest.from_rad),
-          duration_s, kLongestPath_s),
+      fmt::format("{}: speed_limit_rad_s = {}: at least {:.3g} is allowed: the way of {:.3g} rad takes "
+                  "{:.3g} s at that speed, and joints move together for at most {} s",
+                  slowest.joint, slowest.speed_rad_s, least_rad_s,
+                  std::abs(slowest.to_rad - slowest.from_rad), duration_s, kLongestPath_s),
       slowest.joint);
 }
 

@@ -113,7 +113,7 @@ void play(Client& client, const Output& output, const PlayArguments& arguments) 
        {"duration_s", setpoints.back().at_s}});
   output.stream.flush();
   run_guarded(client, arguments.joint, [&] { send_all(client, arguments.joint, setpoints); });
-  say(output, arguments.joint + ": all sent", {{"joint", arguments.joint}, {"sent", true}});
+  say(output, arguments.joint + ": all setpoints sent", {{"joint", arguments.joint}, {"sent", true}});
 }
 
 }  // namespace strainwave

@@ -58,15 +58,14 @@ class Senders {
   std::string remedy() const {
     if (const std::uint64_t without_room = connection_.without_room(); without_room > 0)
       return fmt::format(
-          "for {} of them there was no room while the file was being written: is the disk too slow?",
+          "memory had no room for {} of them while the file was being written: is the disk too slow?",
           without_room);
     const Connection::SocketQueue queue = connection_.socket_queue();
     if (queue.given_bytes < queue.asked_bytes)
       return fmt::format(
-          "the system gives {} bytes before the socket of {} asked for: as root, sysctl "
-          "net.core.rmem_max={}",
+          "the system limits the socket's queue to {} of {} bytes: as root, sysctl net.core.rmem_max={}",
           queue.given_bytes, queue.asked_bytes, queue.asked_bytes);
-    return "the network lost them, or this program had no processor for long";
+    return "the network lost them, or this program got no processor time for too long";
   }
 
  private:
@@ -105,7 +104,7 @@ void record_into(Log& log, const Senders& senders, Client& client, const Output&
         {{"channel", channel}, {"messages", std::int64_t{count}}, {"file", arguments.file.string()}});
   }
   const auto missing = static_cast<std::int64_t>(senders.missing());
-  const std::string lost = missing > 0 ? fmt::format("{} more of the same senders {} missing: {}", missing,
+  const std::string lost = missing > 0 ? fmt::format("{} more from the same senders {} missing: {}", missing,
                                                      missing == 1 ? "is" : "are", senders.remedy())
                                        : "none is missing";
   say(output, fmt::format("{}: {}; {}", arguments.file.string(), counted(messages, "message"), lost),
@@ -121,9 +120,10 @@ void record_into(Log& log, const Senders& senders, Client& client, const Output&
 void record(Client& client, const Output& output, const RecordArguments& arguments) {
   refuse_name_of_mcap(arguments.file, arguments.mcap);
   if (is_named(arguments.file, ".csv"))
-    throw ClientError(ExitStatus::kUsage, arguments.file.string() +
-                                              " would be no CSV file: record an LCM log, and strainwavectl "
-                                              "export makes CSV of it");
+    throw ClientError(
+        ExitStatus::kUsage,
+        arguments.file.string() +
+            " would not be a CSV file: record an LCM log, then convert it with strainwavectl export");
   for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
   if (arguments.joints.empty()) client.wait_for_joints();
   const Senders senders(client.connection(), recorded_channels(client.options().prefix, arguments.joints));

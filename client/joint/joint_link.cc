@@ -67,15 +67,15 @@ double checked_number(const std::string& joint, const std::string& name, double 
   return value;
 }
 
-void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are) {
+void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who) {
   const std::string &prefix = joint.client().options().prefix, &url = joint.connection().url();
   const std::string &others_prefix = other.client().options().prefix, &others_url = other.connection().url();
   if (prefix != others_prefix)
-    throw InvalidInput(fmt::format("{} has prefix {}, {} has {}: {} of one daemon", joint.name(), prefix,
-                                   other.name(), others_prefix, who_are));
+    throw InvalidInput(fmt::format("{} has prefix {}, {} has {}: {} must belong to one daemon", joint.name(),
+                                   prefix, other.name(), others_prefix, who));
   if (url != others_url)
-    throw InvalidInput(fmt::format("{} is on {}, {} on {}: {} of one daemon", joint.name(), url, other.name(),
-                                   others_url, who_are));
+    throw InvalidInput(fmt::format("{} is on {}, {} on {}: {} must belong to one daemon", joint.name(), url,
+                                   other.name(), others_url, who));
 }
 
 JointLink::JointLink(const std::string& name, const JointOptions& options)

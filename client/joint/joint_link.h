@@ -62,8 +62,8 @@ class JointLink {
 };
 
 /// Throws InvalidInput unless both joints belong to the same daemon, because each daemon counts its own
-/// cycles. `who_are`: "the joints of a path are".
-void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are);
+/// cycles. `who`: "the joints of a path".
+void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who);
 
 /// Returns `value` if it is finite and `is_allowed`; otherwise throws InvalidInput. `joint` is the joint it
 /// belongs to. `key`, if given, is the configuration key of the daemon that sets the limit.

@@ -16,7 +16,7 @@ Path::Path(const std::vector<PathPart>& parts) {
   for (const auto& [joint, knots] : parts) {
     links_.push_back(joint.link_);
     parts_.push_back({joint.name(), knots});
-    require_same_daemon(*joint.link_, first(), "the joints of a path are");
+    require_same_daemon(*joint.link_, first(), "the joints of a path");
   }
   check_path(parts_);
 }
@@ -72,7 +72,7 @@ void Path::check_under_way() {
   Client& client = first().client();
   if (client.wait_until([&] { return joint_elsewhere() == nullptr; }, Deadline(kOldStates_s))) return;
   const JointPath& part = *joint_elsewhere();
-  throw NotDone(fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
+  throw NotDone(fmt::format("{}: is not on its way to {} rad: this path is not under way; start() begins it",
                             part.joint, part.knots.back().position_rad),
                 part.joint);
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr double kFarthestAhead_s = 0.9;  // the daemon allows 1 s; the transmission takes part of it
 constexpr double kFarthestTime_s = 1e12;  // a cycle of this time fits into a message
 constexpr double kLongestStep_s = 0.5;    // without samples a joint comes to rest after 0.2 s
-constexpr auto kAnotherOne = "this stream is over; Joint::stream() makes another one";
+constexpr auto kAnotherOne = "this stream is over; Joint::stream() opens a new one";
 std::string over_after(long late, long outdated) {
   if (late + outdated == 0) return kAnotherOne;
   return fmt::format("{} of its samples came late, {} quoted an old state; {}", late, outdated, kAnotherOne);
@@ -69,8 +69,8 @@ struct Stream::TimeBase {
 
 std::shared_ptr<Stream::TimeBase> Stream::base_of(JointLink& link, const Stream* beside) {
   if (beside == nullptr) return std::make_shared<TimeBase>();
-  if (!beside->link_) throw InvalidInput(link.name() + ": beside: the stream there was moved from");
-  require_same_daemon(link, *beside->link_, "streams beside each other are");
+  if (!beside->link_) throw InvalidInput(link.name() + ": beside: this Stream was moved to another one");
+  require_same_daemon(link, *beside->link_, "streams beside each other");
   return beside->base_;
 }
 
@@ -118,9 +118,9 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
   }
   message.at_cycle = base_->cycle_of(t_s, period_s_);
   if (message.at_cycle <= *last_cycle_)
-    throw InvalidInput(
-        fmt::format("{}: t_s = {}: at least a period of the daemon, {} s, after the last one is allowed",
-                    link_->name(), t_s, period_s_));
+    throw InvalidInput(fmt::format(
+        "{}: t_s = {}: a time of at least {} s (the daemon's period) after the last one is allowed",
+        link_->name(), t_s, period_s_));
   wait_until_due(message.at_cycle);
   check_refusals();
   if (static_cast<double>(message.at_cycle) <= link_->cycle_now(period_s_)) {
@@ -176,8 +176,8 @@ setpoint_v1 Stream::sample(double position_rad, std::optional<double> velocity_r
   require_in_range(link_->name(), position_rad, limits);
   message.position_rad = position_rad;
   if (acceleration_rad_s2 && !velocity_rad_s)
-    throw InvalidInput(fmt::format("{}: acceleration_rad_s2 = {}: only with velocity_rad_s", link_->name(),
-                                   *acceleration_rad_s2));
+    throw InvalidInput(fmt::format("{}: acceleration_rad_s2 = {}: allowed only with velocity_rad_s",
+                                   link_->name(), *acceleration_rad_s2));
   if (velocity_rad_s) {
     message.velocity_rad_s =
         checked_number(link_->name(), "velocity_rad_s", *velocity_rad_s, "a finite number");
@@ -279,7 +279,7 @@ void Stream::check_restart() {
   lose();
   throw NotDone(
       fmt::format("{}: did not follow the stream to its end: the daemon was restarted, and the joint is {}; "
-                  "enable it, and go on with a new stream: Joint::stream()",
+                  "enable it; Joint::stream() opens a new stream",
                   link_->name(), to_text(mode_of(*link_->client().find(link_->name())))),
       link_->name());
 }

@@ -20,7 +20,7 @@ void add_doctor_command(CLI::App& app, Invocation& invocation) {
                    "the daemon's configuration file: inertia, stiffness, delay and friction to compare with")
       ->type_name("FILE");
   add_positive(*command, "--reach_rad", arguments->reach_rad, "RAD",
-               "the test motion stays so near to where the joint is")
+               "the test motion stays within this distance of the present position")
       ->capture_default_str();
   command->add_flag("--dry-run", arguments->dry_run, "check and print the test motion, move nothing");
   command->callback([&invocation, arguments, joint, log] {

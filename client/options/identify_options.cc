@@ -25,7 +25,9 @@ void add_identify_command(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   add_positive(*command, "--fastest_rad_s", arguments->fastest_rad_s, "RAD/S",
                "the fastest speed; otherwise 80 % of the joint's limit");
-  command->add_option("--speeds", arguments->speeds, "how many, evenly spaced by ratio")
+  command
+      ->add_option("--speeds", arguments->speeds,
+                   "number of speeds, with a constant ratio from one to the next")
       ->check(CLI::Range(3, 50))
       ->capture_default_str();
   add_seconds(*command, "--steady_s", arguments->steady_s, "longest time at one speed in one direction")

@@ -152,9 +152,8 @@ void Client::explain_silence(const std::string& joint) const {
   }
   if (states_.another_version(prefix))
     throw NoAnswer(
-        fmt::format("the daemon on prefix {} speaks another version: its states have another type than "
-                    "state_v1 of this program. "
-                    "Install both in the same version",
+        fmt::format("the daemon on prefix {} has another version than this program: its states have another "
+                    "type than state_v1. Install the same version of both",
                     prefix));
   std::string message =
       fmt::format("no daemon on prefix {} in {} s ({}).", prefix, options_.timeout_s, connection_.url());

@@ -34,10 +34,9 @@ NoAnswer unavailable(const std::string& lcm_url, const std::string& why) {
 MulticastAddress checked(const std::string& lcm_url) {
   const auto address = parse_udpm_url(lcm_url);
   if (!address)
-    throw unavailable(
-        lcm_url, std::string("it is not of the kind udpm://GROUP:PORT?ttl=N; check the URL (--lcm-url, or "
-                             "LCM_DEFAULT_URL in the environment); the usual one is ") +
-                     kUsualLcmUrl);
+    throw unavailable(lcm_url, std::string("it must have the form udpm://GROUP:PORT?ttl=N; check --lcm-url, "
+                                           "or LCM_DEFAULT_URL in the environment; the usual one is ") +
+                                   kUsualLcmUrl);
   if (const auto problem = find_multicast_problem(lcm_url)) throw unavailable(lcm_url, *problem);
   return *address;
 }
@@ -72,7 +71,7 @@ Connection::Connection(const std::string& lcm_url) : url_(lcm_url) {
 void Connection::publish(const std::string& channel, std::span<const std::uint8_t> bytes) {
   if (!network_) return keep({channel, {bytes.begin(), bytes.end()}, utime_now(), {}});
   if (network_->sender.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0) {
-    throw NoAnswer("LCM did not take a message for " + channel + ": is the network of " + url_ + " up?");
+    throw NoAnswer("LCM could not send a message on " + channel + ": is the network of " + url_ + " up?");
   }
 }
 

@@ -123,7 +123,7 @@ class PathLook {
 }  // namespace
 
 void check_path(const std::vector<JointPath>& path) {
-  if (path.empty()) throw InvalidInput("a path has at least one joint");
+  if (path.empty()) throw InvalidInput("a path needs at least one joint");
   std::set<std::string> named;
   for (const auto& [joint, knots] : path) {
     if (!named.insert(joint).second)

@@ -54,7 +54,7 @@ SecretKeyText read_secret_key(const std::filesystem::path& path) {
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail(path, "the key cannot be read");
   if (!S_ISREG(status.st_mode))
-    throw InputError(path.string() + ": is not a file: give a key of strainwavectl keygen");
+    throw InputError(path.string() + ": is not a file: give the file that strainwavectl keygen wrote");
   std::array<char, 512> text{};
   const ssize_t size = ::read(file.get(), text.data(), text.size());
   if (size < 0) fail(path, "the key cannot be read");

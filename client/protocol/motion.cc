@@ -200,11 +200,10 @@ void require_quick_enough(const std::string& joint, const MoveOrder& order, doub
   constexpr double kMargin = 1.01;  // for rounding in the message
   const std::string hint = degrees_hint(order.position_rad);
   throw InvalidInput(
-      fmt::format(
-          "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s "
-          "with that speed and a move takes at most {} s{}{}",
-          joint, order.speed_limit_rad_s, kMargin * way_rad / kLongestMove_s, way_rad,
-          way_rad / order.speed_limit_rad_s, kLongestMove_s, hint.empty() ? "" : "; ", hint),
+      fmt::format("{}: speed_limit_rad_s = {}: at least {:.3g} is allowed: the way of {:.3g} rad takes "
+                  "{:.3g} s at that speed, and a move takes at most {} s{}{}",
+                  joint, order.speed_limit_rad_s, kMargin * way_rad / kLongestMove_s, way_rad,
+                  way_rad / order.speed_limit_rad_s, kLongestMove_s, hint.empty() ? "" : "; ", hint),
       joint);
 }
 

@@ -24,10 +24,12 @@ void wait_for_mode(Client& client, const std::string& joint, const Decided& deci
   const double timeout_s = client.options().timeout_s;
   const std::string silence = silence_of(view, timeout_s);
   const std::string mode(to_text(mode_of(view)));
-  throw NoAnswer(silence.empty()
-                     ? fmt::format("{}: accepted, but still {} after {} s", joint, mode, timeout_s)
-                     : fmt::format("{}: accepted, but then {}; it was {}", joint, silence, mode),
-                 joint);
+  throw NoAnswer(
+      silence.empty()
+          ? fmt::format("{}: the order was accepted, but the joint is still {} after {} s", joint, mode,
+                        timeout_s)
+          : fmt::format("{}: the order was accepted, then {}; the last mode was {}", joint, silence, mode),
+      joint);
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ void send_stop(Client& client, const std::string& joint, Action stop) {
     require_accepted(answer, joint, std::string(to_text(stop)));
   } catch (const NoAnswer& error) {
     throw NoAnswer(
-        fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
+        fmt::format("{}: the stop was sent {} times, and no answer came: {}", joint,
                     PendingOrder::stop_patience(client.options().timeout_s).transmissions, error.what()),
         joint);
   }

@@ -20,10 +20,10 @@ UniqueFd claim_output(const std::filesystem::path& file, bool overwrite) {
   if (!claim) throw not_writable(file);
   // On a file system without locks, the claim always succeeds.
   if (::flock(claim.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw ClientError(ExitStatus::kUsage,
-                      file.string() +
-                          " is being written by another recorder: choose another name, or "
-                          "end that one first");
+    throw ClientError(
+        ExitStatus::kUsage,
+        file.string() +
+            " is being written by another recorder: choose another name, or stop that recorder first");
   return claim;
 }
 

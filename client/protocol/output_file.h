@@ -24,7 +24,8 @@ inline bool is_named(const std::filesystem::path& file, std::string_view extensi
 /// Throws ClientError (usage) when `file` exists and `overwrite` is false.
 inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite) {
   if (!overwrite && std::filesystem::exists(file))
-    throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
+    throw ClientError(ExitStatus::kUsage,
+                      file.string() + " exists: choose another name, or give --overwrite");
 }
 
 /// Opens or creates `file` for one writer: no other process can claim it while the descriptor is open. Throws
@@ -36,7 +37,7 @@ UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
   if (!mcap && is_named(file, ".mcap"))
     throw ClientError(ExitStatus::kUsage,
-                      file.string() + " would be no MCAP file: say --mcap, or choose another name");
+                      file.string() + " would not be an MCAP file: give --mcap, or choose another name");
   if (mcap && (is_named(file, ".lcm") || is_named(file, ".csv")))
     throw ClientError(ExitStatus::kUsage,
                       file.string() + " would be an MCAP file: leave --mcap out, or choose another name");
@@ -44,7 +45,8 @@ inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
 
 /// The error for a `file` that cannot be created or opened for writing.
 inline ClientError not_writable(const std::filesystem::path& file) {
-  return {ExitStatus::kUsage, file.string() + " cannot be written: does its folder exist, is it yours?"};
+  return {ExitStatus::kUsage,
+          file.string() + " cannot be written: check that its folder exists and that you may write to it"};
 }
 
 }  // namespace strainwave

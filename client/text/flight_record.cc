@@ -69,8 +69,7 @@ std::string mode_names() {
 
 double period_of(const FlightRecordInfo& info, const std::filesystem::path& file) {
   const auto period = info.head.find("period_s");
-  if (period == info.head.end())
-    throw InputError(file.string() + " does not say its period_s: it is incomplete");
+  if (period == info.head.end()) throw InputError(file.string() + " has no period_s: it is incomplete");
   return parse_number(period->second, file.string(), "period_s");
 }
 
@@ -80,7 +79,7 @@ FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line;
   if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string() + " cannot be read: is the name right, is it yours to read?");
+    throw InputError(file.string() + " cannot be read: check its name, and that you may read it");
   const std::string first_line = fmt::format("# strainwave-flight-record {}", kFlightRecordFormat);
   if (!std::getline(stream, line) || line != first_line)
     throw InputError(fmt::format("{} is not a flight record of format {}: its first line is not '{}'",

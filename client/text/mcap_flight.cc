@@ -27,7 +27,7 @@ constexpr const char* kSchemaName = "strainwave.flight_record_1";
 
 std::string head_of(const FlightRecordInfo& info, const std::string& key, const std::string& source) {
   const auto found = info.head.find(key);
-  if (found == info.head.end()) throw InputError(source + " does not say its " + key + ": it is incomplete");
+  if (found == info.head.end()) throw InputError(source + " has no " + key + ": it is incomplete");
   return found->second;
 }
 

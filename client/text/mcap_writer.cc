@@ -82,7 +82,8 @@ void McapWriter::Span::take(std::uint64_t time_ns) noexcept {
 
 McapWriter::McapWriter(const std::filesystem::path& file, std::string_view library)
     : name_(file.string()), file_(file, std::ios::binary | std::ios::trunc), data_crc_(crc_of(0, {})) {
-  if (!file_) throw InputError(name_ + " cannot be written: does its folder exist, is it yours?");
+  if (!file_)
+    throw InputError(name_ + " cannot be written: check that its folder exists and that you may write to it");
   put(kMagic);
   put(Content().text("").text(library).as(Opcode::kHeader));
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kHelpIndent = 13;  // column of the explanation of a key
 constexpr std::array<std::string_view, 21> kHelp{
     "up, down     select a joint",
     "s            stop the selected joint: needs no key and no session",
-    "S            stop every joint of this watch, those out of sight, too",
+    "S            stop every joint of this watch, including those out of sight",
     "e            enable: the joint holds where it is",
     "h            hold: stop within the limits and stay enabled",
     "c            clear a fault; the joint stays off",
@@ -62,7 +62,7 @@ void draw_help(Screen& screen, int first, int end) {
   if (lines.size() > rows) std::erase(lines, "");
   if (lines.size() > rows && rows > 0) {
     lines.resize(rows);
-    lines.back() = "... a larger terminal has more";
+    lines.back() = "... a larger terminal shows more";
   }
   for (const std::string& line : lines) screen.put(first++, 1, line);
 }

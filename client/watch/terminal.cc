@@ -52,7 +52,7 @@ Terminal::Terminal() {
   opened = ::newterm(nullptr, stdout, stdin);
   if (opened == nullptr)
     throw ClientError(ExitStatus::kUsage,
-                      "this terminal cannot be used as a whole (TERM is not known): use watch --plain");
+                      "watch does not know this type of terminal (TERM): use watch --plain");
   ::cbreak();
   ::noecho();
   ::nonl();

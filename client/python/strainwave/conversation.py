@@ -77,12 +77,12 @@ class Conversation:
     def channel(self, kind):
         return f"{self.prefix}.{self.joint}.{kind}"
 
-    def require_same_daemon(self, other, who_are):
+    def require_same_daemon(self, other, who):
         """Raises InvalidInput unless both joints belong to the same daemon, because each daemon counts its own cycles."""
         if self.prefix != other.prefix:
-            raise InvalidInput(f"{self.joint} has prefix {self.prefix}, {other.joint} has {other.prefix}: {who_are} of one daemon")
+            raise InvalidInput(f"{self.joint} has prefix {self.prefix}, {other.joint} has {other.prefix}: {who} must belong to one daemon")
         if self.network.url != other.network.url:
-            raise InvalidInput(f"{self.joint} is on {self.network.url}, {other.joint} on {other.network.url}: {who_are} of one daemon")
+            raise InvalidInput(f"{self.joint} is on {self.network.url}, {other.joint} on {other.network.url}: {who} must belong to one daemon")
 
     def wait_for_state(self):
         """The latest state; waits for the first. Raises NoAnswer that lists the joints heard instead."""
@@ -154,7 +154,7 @@ class Conversation:
         answer = self._exchange(kind, message, self.state, transmissions, max(self.timeout_s, STOP_PATIENCE_S))
         self._stopped = self.messages
         if answer is None:
-            raise NoAnswer(f"{self.joint}: the stop was sent {transmissions} times, and nothing answered: "
+            raise NoAnswer(f"{self.joint}: the stop was sent {transmissions} times, and no answer came: "
                            + (self._why_no_answer() if self.state else self._silence()))
         if answer.accepted != 1:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
@@ -253,11 +253,11 @@ class Conversation:
         heard = sorted(joint for joint, came_s in self.network.joints.items() if now - came_s <= max(self.timeout_s, _GONE_S))
         joints = [joint for prefix, joint in heard if prefix == self.prefix]
         if self._misunderstood:
-            return (f"the daemon on prefix {self.prefix} speaks another version: its states have another type than state_v1 of this "
-                    "program. Install both in the same version")
+            return (f"the daemon on prefix {self.prefix} has another version than this program: its states have another type "
+                    "than state_v1. Install the same version of both")
         if self.joint in joints:
             silent_s = now - self.network.joints[self.prefix, self.joint]
-            return f"{self.joint}: no state came in {self.timeout_s:g} s; the last one that was heard here came {silent_s:.2f} s ago"
+            return f"{self.joint}: no state came in {self.timeout_s:g} s; the last one came {silent_s:.2f} s ago"
         if joints:
             return f"no joint '{self.joint}' on prefix {self.prefix}; its joints are: {', '.join(joints)}"
         words = f"no daemon on prefix {self.prefix} in {self.timeout_s:g} s ({self.network.url})."

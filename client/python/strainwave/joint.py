@@ -188,8 +188,8 @@ class Joint:
             return
         least = f"{1.01 * way_rad / LONGEST_PATH_S:.3g}"  # one percent more, for rounding in the message
         hint = degrees_hint(position_rad)
-        raise InvalidInput(f"{self.name}: speed_limit_rad_s = {speed_rad_s!r}: at least {least} is allowed, the way of {way_rad:.3g} rad takes "
-                           f"{way_rad / speed_rad_s:.3g} s with that speed and a move takes at most {LONGEST_PATH_S:g} s"
+        raise InvalidInput(f"{self.name}: speed_limit_rad_s = {speed_rad_s!r}: at least {least} is allowed: the way of {way_rad:.3g} rad takes "
+                           f"{way_rad / speed_rad_s:.3g} s at that speed, and a move takes at most {LONGEST_PATH_S:g} s"
                            + (f"; {hint}" if hint else ""))
 
     def _mode(self):
@@ -208,4 +208,5 @@ class Joint:
     def _wait_for(self, decided):
         if not self._wait_until(decided, self._timeout_s):
             mode, silence = self._mode().text, self._conversation.silence()
-            raise NoAnswer(f"{self.name}: accepted, but " + (f"then {silence}; it was {mode}" if silence else f"still {mode} after {self._timeout_s:g} s"))
+            end = f"then {silence}; the last mode was {mode}" if silence else f"but the joint is still {mode} after {self._timeout_s:g} s"
+            raise NoAnswer(f"{self.name}: the order was accepted, {end}")

@@ -24,7 +24,7 @@ def _sodium():
             continue
         if sodium is not None and sodium.sodium_init() >= 0:
             return sodium
-    raise InvalidInput("key: commands are signed with libsodium, which is not here: apt install libsodium23")
+    raise InvalidInput("key: commands are signed with libsodium, which is not installed: apt install libsodium23")
 
 
 class SecretKey:
@@ -60,7 +60,7 @@ def read_secret_key(path):
     except (OSError, ValueError) as error:  # a name with a zero byte raises ValueError
         raise InvalidInput(f"key = {path!r}: the key cannot be read: {getattr(error, 'strerror', error)}") from None
     if line is None:
-        raise InvalidInput(f"key = {path!r}: is not a file: give a key of strainwavectl keygen")
+        raise InvalidInput(f"key = {path!r}: is not a file: give the file that strainwavectl keygen wrote")
     seed = _seed_of(path, line)  # checks the content first, because a public key may be readable by all
     if mode & (stat.S_IRWXG | stat.S_IRWXO):
         raise InvalidInput(f"key = {path!r}: other users can reach this secret key: chmod 600 {path}, and make a new key if they may "

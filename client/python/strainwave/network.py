@@ -125,7 +125,7 @@ class Network:
         try:
             self._sender.send(datagram)
         except OSError as error:
-            raise NoAnswer(f"{channel}: the network of {self.url} did not take a message: {error}") from None
+            raise NoAnswer(f"LCM could not send a message on {channel} ({self.url}): {error}") from None
 
     def wait_until(self, condition, timeout_s):
         """Waits until condition() is true or `timeout_s` have passed; checks it after every message. Returns its last value."""

@@ -25,12 +25,12 @@ class Path:
         if not isinstance(knots, Mapping):
             raise InvalidInput(f"{shown(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
         if not knots:
-            raise InvalidInput("a path has at least one joint")
+            raise InvalidInput("a path needs at least one joint")
         for joint in knots:
             if not isinstance(joint, Joint):
                 raise InvalidInput(f"{shown(joint)}: a Joint is allowed, as Joint({shown(joint)})")
         for joint in knots:
-            joint._conversation.require_same_daemon(next(iter(knots))._conversation, "the joints of a path are")
+            joint._conversation.require_same_daemon(next(iter(knots))._conversation, "the joints of a path")
         names = [joint.name for joint in knots]
         for name in names:
             if names.count(name) > 1:
@@ -103,7 +103,7 @@ class Path:
             joint._conversation.wait_for_state()
         if not self._joints[0]._wait_until(lambda: self._joint_elsewhere() is None, OLD_STATES_S):
             joint = self._joint_elsewhere() or self._joints[0]
-            raise NotDone(f"{joint.name}: is not on its way to {self._knots[joint][-1][1]:g} rad: this path was not started: start() does that")
+            raise NotDone(f"{joint.name}: is not on its way to {self._knots[joint][-1][1]:g} rad: this path is not under way; start() begins it")
 
     def _where(self):
         state = self._joints[0].state

@@ -12,7 +12,7 @@ from .vocabulary import Mode, Reason
 FARTHEST_AHEAD_S = 0.9  # the daemon allows 1 s; the transmission takes part of it
 _LARGEST_T_S = 1e12  # a cycle of this time fits into a message
 _LONGEST_STEP_S = 0.5  # without samples a joint comes to rest after 0.2 s
-_ANOTHER_ONE = "this stream is over; Joint.stream() makes another one"
+_ANOTHER_ONE = "this stream is over; Joint.stream() opens a new one"
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
@@ -59,7 +59,7 @@ class Stream:
         if beside is not None and not isinstance(beside, Stream):
             raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
         if beside is not None:
-            conversation.require_same_daemon(beside._conversation, "streams beside each other are")
+            conversation.require_same_daemon(beside._conversation, "streams beside each other")
         self._base = TimeBase() if beside is None else beside._base
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
@@ -91,7 +91,7 @@ class Stream:
             return self._begin(t, message)
         message.at_cycle = self._base.cycle_of(t, self._period_s)
         if message.at_cycle <= self._last_cycle:
-            raise InvalidInput(f"{self._joint.name}: t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
+            raise InvalidInput(f"{self._joint.name}: t = {t!r}: a time of at least {self._period_s} s (the daemon's period) after the last one is allowed")
         self._wait_until_due(message.at_cycle)
         self._wait_for_new_states(message.at_cycle)
         self._check_refusals()
@@ -106,7 +106,7 @@ class Stream:
         before the first put(), which sets the time, and InvalidInput."""
         t = self._checked("t", t, f"a finite time in s, from -{_LARGEST_T_S:g} to {_LARGEST_T_S:g}", lambda s: abs(s) <= _LARGEST_T_S)
         if self._base.origin_t is None:
-            raise NotDone(f"{self._joint.name}: the stream has not begun: its first put() says which cycle its time is")
+            raise NotDone(f"{self._joint.name}: the stream has not begun: its first put() sets its time")
         return self._base.cycle_of(t, self._period_s)
 
     def close(self):
@@ -155,7 +155,7 @@ class Stream:
             message.derivatives = 1
         if acceleration_rad_s2 is not None:
             if velocity_rad_s is None:
-                raise InvalidInput(f"{self._joint.name}: acceleration_rad_s2 = {acceleration_rad_s2!r}: only with velocity_rad_s")
+                raise InvalidInput(f"{self._joint.name}: acceleration_rad_s2 = {acceleration_rad_s2!r}: allowed only with velocity_rad_s")
             message.acceleration_rad_s2 = self._checked("acceleration_rad_s2", acceleration_rad_s2, "a finite number", lambda _: True)
             message.derivatives = 2
         message.stream_id = self._stream_id
@@ -248,7 +248,7 @@ class Stream:
         if self._restarted():
             self._lose()
             raise NotDone(f"{self._joint.name}: did not follow the stream to its end: the daemon was restarted, and the joint is "
-                          f"{Mode(self._conversation.state.mode)}; enable it, and go on with a new stream: Joint.stream()")
+                          f"{Mode(self._conversation.state.mode)}; enable it; Joint.stream() opens a new stream")
 
     # The stream has lost the joint to the client or the event that ended it, so it sends no hold.
     def _lose(self):

@@ -87,7 +87,7 @@ TEST(IdentifyPlan, RefusesWhatIsBeyondTheLimitsAndNamesThem) {
   arguments.range_rad = {-2.1, 0.0};
   EXPECT_NE(refusal(arguments, -1.0).find("-2 to 3"), std::string::npos);
   arguments.range_rad = {1.0, 0.5};
-  EXPECT_NE(refusal(arguments).find("smaller first"), std::string::npos);
+  EXPECT_NE(refusal(arguments).find("below the second"), std::string::npos);
   arguments.range_rad = {0.5, 1.0};
   EXPECT_NE(refusal(arguments, 0.0).find("move it there first"), std::string::npos);
   arguments = {};

@@ -176,7 +176,7 @@ TEST_F(CommandsTest, AMoveOfMoreThanAnHourIsRefusedWithTheLeastSpeedThatIsAllowe
     slow.speed_limit_rad_s = 1e-300;
     EXPECT_EQ(status_of([&] { move(client, output, slow); }), ExitStatus::kUsage);
     EXPECT_TRUE(
-        message_has("elbow: speed_limit_rad_s = 1e-300: at least 0.00014 is allowed, the way of 0.5 rad"))
+        message_has("elbow: speed_limit_rad_s = 1e-300: at least 0.00014 is allowed: the way of 0.5 rad"))
         << message;
   }
   EXPECT_TRUE(daemon.heard().empty());

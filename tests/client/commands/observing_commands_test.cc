@@ -186,7 +186,7 @@ TEST_F(CommandsTest, ExportDoesNotDestroyWhatItReads) {
                 export_log(output, {log, folder.path() / name, true, true});
               }),
               ExitStatus::kUsage);
-    EXPECT_TRUE(message_has("is what is read")) << message;
+    EXPECT_TRUE(message_has("is the log that export reads")) << message;
     EXPECT_EQ(std::filesystem::file_size(log), size);
   }
 }

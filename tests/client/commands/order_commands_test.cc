@@ -151,11 +151,11 @@ TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {
   daemon.publish_state();
   daemon.modes_after_answer = {Mode::kStarting};
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
-  EXPECT_EQ(message, "elbow: accepted, but then no state for 0.3 s; it was starting");
+  EXPECT_EQ(message, "elbow: the order was accepted, then no state for 0.3 s; the last mode was starting");
   StateAfterState states(connection, daemon);
   daemon.publish_state();
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
-  EXPECT_TRUE(message_has("accepted, but still starting after 0.3 s")) << message;
+  EXPECT_TRUE(message_has("the order was accepted, but the joint is still starting after 0.3 s")) << message;
 }
 
 TEST_F(CommandsTest, DisableReachesAJointThatIsNotHeard) {
@@ -186,7 +186,7 @@ TEST_F(CommandsTest, DisableAllGoesOnAfterAFailure) {
   daemon.drop = 100;
   wrist.modes_after_answer = {Mode::kOff};
   EXPECT_EQ(status_of([&] { disable(client, output, {}); }), ExitStatus::kNoAnswer);
-  EXPECT_TRUE(message_has("elbow: the stop was sent 8 times, and nothing answered")) << message;
+  EXPECT_TRUE(message_has("elbow: the stop was sent 8 times, and no answer came")) << message;
   EXPECT_TRUE(output_has("wrist: disabled"));
 }
 

@@ -244,8 +244,8 @@ TEST_F(PathCommandsTest, WhoWaitsIsToldOnceThatThePathIsPausedAndThatItGoesOn) {
       << message;
   const std::string said = stream.str();
   const std::string paused =
-      "elbow, wrist: paused at 0.320 s of 1.000 s; strainwavectl resume elbow goes on\n";
-  EXPECT_EQ(said.find(paused + "elbow, wrist: on the path again\nelbow, wrist: arrived in "), 0U) << said;
+      "elbow, wrist: paused at 0.320 s of 1.000 s; to continue: strainwavectl resume elbow\n";
+  EXPECT_EQ(said.find(paused + "elbow, wrist: the path continues\nelbow, wrist: arrived in "), 0U) << said;
 }
 
 TEST_F(PathCommandsTest, APauseIsAnObjectOfItsOwnInJson) {

@@ -42,7 +42,7 @@ TEST_F(PlayTest, ThatALoadEndsSaysSoAsAMoveDoes) {
   EXPECT_EQ(status_of_play(), ExitStatus::kRefused);
   EXPECT_TRUE(message.starts_with(
       "elbow: did not follow the recording to its end: it yielded to a load of 13.1 N.m (load_Nm "
-      "allows 12) at 0.3011 rad; it is tracking; elbow "))
+      "allows 12) at 0.3011 rad; it is tracking; the daemon refused to hold elbow "))
       << message;
   ASSERT_TRUE(details.yielded_to);
   EXPECT_EQ(details.yielded_to->load_Nm, -13.1042);
@@ -56,7 +56,7 @@ TEST_F(PlayTest, IsNotEndedByALoadOfBefore) {
   };
   EXPECT_EQ(status_of_play(), ExitStatus::kDone) << message;
   EXPECT_TRUE(output_has("elbow: 20 setpoints over 0.2 s")) << stream.str();
-  EXPECT_TRUE(output_has("elbow: all sent")) << stream.str();
+  EXPECT_TRUE(output_has("elbow: all setpoints sent")) << stream.str();
 }
 
 TEST_F(PlayTest, SendsNothingOfADamagedLog) {

@@ -78,7 +78,7 @@ TEST_F(JointTest, SaysThatAStopWasSentWhenNothingAnswers) {
   EXPECT_EQ(joint.state().mode, Mode::kHolding);
   daemon.stop();
   const std::string words = testing::refusal_of<NoAnswer>([&] { joint.disable(); });
-  EXPECT_TRUE(has(words, "the stop was sent 8 times, and nothing answered")) << words;
+  EXPECT_TRUE(has(words, "the stop was sent 8 times, and no answer came")) << words;
   EXPECT_TRUE(has(words, ": no state for 4.")) << words;
   EXPECT_FALSE(has(words, "publishes its state")) << words;
 }

@@ -70,7 +70,7 @@ TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSo) {
   Joint elbow = joint("elbow");
   Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
   const std::string refused = testing::refusal_of<NotDone>([&] { path.wait(); });
-  EXPECT_EQ(refused, "elbow: is not on its way to 0.4 rad: this path was not started: start() does that");
+  EXPECT_EQ(refused, "elbow: is not on its way to 0.4 rad: this path is not under way; start() begins it");
 }
 
 TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSoWhereTheJointStandsAtItsEnd) {

@@ -36,7 +36,7 @@ TEST_F(StreamTest, OfAJointThatHasFallenSilentIsClosedByAHoldThatIsSentOnce) {
     stream.put(0.0, 0.1);
     daemon.fall_silent();
     const std::string refused = testing::refusal_of<NoAnswer>([&] { stream.close(); });
-    EXPECT_TRUE(refused.starts_with("elbow: the stop was sent 8 times, and nothing answered: ")) << refused;
+    EXPECT_TRUE(refused.starts_with("elbow: the stop was sent 8 times, and no answer came: ")) << refused;
     EXPECT_NE(refused.find("no state for"), std::string::npos) << refused;
     EXPECT_NO_THROW(stream.close()) << "it is";
   }
@@ -98,8 +98,7 @@ TEST_P(EndedStreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
     FAIL() << "went on";
   } catch (const Refused& error) {
     EXPECT_EQ(error.reason(), GetParam());
-    EXPECT_TRUE(
-        std::string(error.what()).ends_with("; this stream is over; Joint::stream() makes another one"))
+    EXPECT_TRUE(std::string(error.what()).ends_with("; this stream is over; Joint::stream() opens a new one"))
         << error.what();
   }
   EXPECT_THROW(stream.put(20.0, 0.1), NotDone) << "over";
@@ -183,7 +182,7 @@ TEST_F(StoppedStreamTest, ThrowsThatTheDaemonWasRestartedAndWhatToDo) {
     EXPECT_STREQ(
         error.what(),
         "elbow: did not follow the stream to its end: the daemon was restarted, and the joint is off; "
-        "enable it, and go on with a new stream: Joint::stream()");
+        "enable it; Joint::stream() opens a new stream");
   });
 }
 

@@ -76,7 +76,7 @@ TEST_F(StreamTest, IsBesideNoneOfAnotherDaemonWhichCountsItsOwnCycles) {
   auto first = joint.stream();
   const std::string refused =
       testing::refusal_of<InvalidInput>([&] { auto second = others.stream({.beside = &first}); });
-  EXPECT_EQ(refused, "wrist has prefix B, elbow has SW: streams beside each other are of one daemon");
+  EXPECT_EQ(refused, "wrist has prefix B, elbow has SW: streams beside each other must belong to one daemon");
   const auto moved = std::move(first);
   EXPECT_THROW((void)joint.stream({.beside = &first}),
                InvalidInput);  // NOLINT(bugprone-use-after-move): that is tried

@@ -161,7 +161,7 @@ TEST(CommandLine, WithoutADaemonIsNoAnswer) {
     EXPECT_EQ(result.status, ExitStatus::kNoAnswer) << ::testing::PrintToString(arguments);
     EXPECT_EQ(result.out, "");
     if (std::string_view(arguments[0]) == "hold") {
-      EXPECT_NE(result.err.find("elbow: the stop was sent 8 times, and nothing answered"), std::string::npos)
+      EXPECT_NE(result.err.find("elbow: the stop was sent 8 times, and no answer came"), std::string::npos)
           << result.err;
     }
   }

@@ -83,7 +83,7 @@ TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {
   ++older[3];  // a byte of the type's fingerprint
   older.resize(older.size() - 8);
   connection.publish("SW.elbow.STATE", older);
-  EXPECT_NE(failure("elbow").find("the daemon on prefix SW speaks another version"), std::string::npos);
+  EXPECT_NE(failure("elbow").find("the daemon on prefix SW has another version"), std::string::npos);
 }
 
 TEST_F(ClientTest, TakesATornStateForNoOtherVersion) {

@@ -204,7 +204,7 @@ class ADaemonThatWantsSignatures(unittest.TestCase):
         elbow._conversation.timeout_s = 0.5
         self.daemon.kill()
         self.daemon.wait(60)
-        with self.assertRaisesRegex(NoAnswer, "the stop was sent 8 times, and nothing answered"):
+        with self.assertRaisesRegex(NoAnswer, "the stop was sent 8 times, and no answer came"):
             elbow.disable()
 
 

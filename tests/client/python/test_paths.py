@@ -30,7 +30,7 @@ class Paths(PlayedOrders):
         for knots, words in ((None, "None: {joint: "), ({}, "at least one joint"), ({"elbow": self.KNOTS}, "as Joint.'elbow'."),
                              ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots"),
                              ({self.elbow: self.KNOTS, Joint("elbow", key="", prefix="LEFT"): self.KNOTS}, "^elbow has prefix LEFT, elbow has SW: "),
-                             ({self.elbow: self.KNOTS, Joint("wrist", key="", prefix="LEFT"): self.KNOTS}, "^wrist has prefix LEFT, elbow has SW: the joints of a path are of one daemon$")):
+                             ({self.elbow: self.KNOTS, Joint("wrist", key="", prefix="LEFT"): self.KNOTS}, "^wrist has prefix LEFT, elbow has SW: the joints of a path must belong to one daemon$")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path(knots)
 
@@ -64,12 +64,12 @@ class Paths(PlayedOrders):
 
     def test_that_nobody_started_say_so_when_they_are_waited_for(self):
         self.publish_state(target_position_rad=0.1)
-        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
+        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path is not under way; start.. begins it"):
             Path({self.elbow: self.KNOTS}).wait()
 
     def test_that_nobody_started_say_so_though_the_joint_stands_at_their_end(self):
         self.publish_state(target_position_rad=0.75, joint_position_rad=0.75, path_time_s=math.nan)
-        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
+        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path is not under way; start.. begins it"):
             Path({self.elbow: self.KNOTS}).wait()
 
     def test_that_another_program_has_just_started_are_waited_for_though_old_states_come_first(self):

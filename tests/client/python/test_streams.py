@@ -133,7 +133,7 @@ class Streams(PlayedOrders):
                 stream = self.stream(ahead_s=0.9)
                 stream.put(0, 0.1)
                 stream.put(0.01, 0.1)
-                with self.assertRaisesRegex(Refused, "; this stream is over; Joint.stream.. makes another one$") as caught:
+                with self.assertRaisesRegex(Refused, "; this stream is over; Joint.stream.. opens a new one$") as caught:
                     stream.put(0.02, 0.1)
                 self.assertIs(caught.exception.reason, reason)
                 with self.assertRaisesRegex(NotDone, "this stream is over"):
@@ -194,8 +194,8 @@ class Streams(PlayedOrders):
         return stream
 
     def test_that_a_restart_of_the_daemon_ended_say_so_and_what_to_do(self):
-        words = ("^elbow: did not follow the stream to its end: the daemon was restarted, and the joint is off; enable it, "
-                 "and go on with a new stream: Joint.stream..$")
+        words = ("^elbow: did not follow the stream to its end: the daemon was restarted, and the joint is off; enable it; "
+                 "Joint.stream.. opens a new stream$")
         for reason in (Reason.WRONG_SESSION, Reason.STREAM_ENDED):
             def daemon(channel, message):
                 order = published(channel, message)
@@ -349,7 +349,7 @@ class Streams(PlayedOrders):
         wrist = Joint("wrist", key="", prefix="B")
         self.network.deliver("STATE", self.state, "wrist", prefix="B")
         self.network.deliver("LIMITS", self.limits, "wrist", prefix="B")
-        with self.assertRaisesRegex(InvalidInput, "^wrist has prefix B, elbow has SW: streams beside each other are of one daemon$"):
+        with self.assertRaisesRegex(InvalidInput, "^wrist has prefix B, elbow has SW: streams beside each other must belong to one daemon$"):
             wrist.stream(beside=first)
 
     def test_refuse_samples_that_make_no_sense_before_anything_is_sent(self):

@@ -264,7 +264,7 @@ TEST(WatchView, ExplainsAllOfThemOnSmallTerminals) {
   for (const char* part :
        {"needs no key and no session", "when the position was measured", "docs/faults.md explains each"})
     EXPECT_NE(narrow.find(part), std::string::npos) << part << "\n" << narrow;
-  EXPECT_TRUE(shows(render(asked, 24, 40), "a larger terminal has more"));
+  EXPECT_TRUE(shows(render(asked, 24, 40), "a larger terminal shows more"));
 }
 
 TEST(WatchView, ShowsWhereTheTemperatureComesFrom) {

@@ -593,7 +593,7 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwave-can-sim none0", {"ip link add dev none0 type vcan"}},
     {"strainwave-can-sim none0 --node-id 128", {"--node-id", "128"}},
     {"strainwavectl inject elbow sensor_stcuk",
-     {"'sensor_stcuk' is no fault", "did you mean sensor_stuck?", "there are: none"}},
+     {"'sensor_stcuk' is not a fault", "did you mean sensor_stuck?", "allowed are: none"}},
     {"strainwave-sim rnu", {"'rnu' is not a command", "did you mean run?"}},
     {"strainwave-sim chapter6 --out /proc/nowhere",
      {"/proc/nowhere", "cannot be made", "name another folder"}},
