@@ -66,7 +66,7 @@ std::string find_torque_that_is_not_given(const JointTrace& trace) {
   if (!measured || given_Nm >= kGiven * ordered_Nm) return "";
   return fmt::format(
       "the drive gave at most {:.1f} of the {:.1f} N.m ordered, in means over 20 ms: set torque_limit_Nm to "
-      "what it can give",
+      "what the drive can give",
       given_Nm, ordered_Nm);
 }
 
@@ -130,18 +130,18 @@ std::string Commissioning::announcement() const {
   if (resumed_) return name_of(step_) + ": done before, not run again";
   switch (step_) {
     case Step::kIdentity:
-      return "identity: compares, moves nothing";
+      return "identity: comparisons at the start-up of the drive, nothing moves";
     case Step::kDirection:
       return "direction: ramps of torque until the joint moves, inside " + inside;
     case Step::kBreakaway:
-      return excitation_ == nullptr ? std::string("breakaway: by the same ramps")
+      return excitation_ == nullptr ? std::string("breakaway: from the same ramps")
                                     : "breakaway: ramps of torque until the joint moves, inside " + inside;
     case Step::kFriction:
       return "friction: strokes at steady speeds, inside " + inside;
     case Step::kMotion:
-      return "motion: strokes with a shaken torque, inside " + inside;
+      return "motion: strokes with an oscillating torque added, inside " + inside;
     default:
-      return "comparison: of what is configured with what is measured";
+      return "comparison: of the configured with the measured values";
   }
 }
 
@@ -217,12 +217,12 @@ std::string Commissioning::evaluate() {
 
 std::string Commissioning::find_which_way() {
   if (!record_.temperature_C) {
-    record_.problem = "no temperature came, and friction is measured at one: connect the sensor";
+    record_.problem = "no temperature came, and friction depends on it: connect the sensor";
     return "";
   }
   const std::optional<int> direction = find_direction(ramps_);
   if (!direction)
-    record_.problem = "the motion is too small to show which way the torque acts: is a brake shut?";
+    record_.problem = "the motion is too small to show which way the torque acts: is the brake open?";
   else if (*direction < 0)
     record_.problem = config_.direction_key + ": positive torque moves the joint to smaller positions";
   return "positive torque moves the joint to larger positions";
@@ -233,7 +233,7 @@ std::string Commissioning::find_torque_of_breaking_away() {
   record_.breakaway_positive_Nm = both[0];
   record_.breakaway_negative_Nm = both[1];
   if (!both[0] || !both[1]) {
-    record_.problem = "the joint did not break away both ways: is something in its way?";
+    record_.problem = "the joint did not break away in both directions: is something in its way?";
     return "";
   }
   return fmt::format("{} N.m measured to larger positions, {} N.m to smaller ones", text_of(*both[0]),
@@ -245,7 +245,7 @@ std::string Commissioning::find_friction_over_speed() {
   if (record_.friction.empty()) {
     record_.problem =
         "no stretch of steady speed was long enough: give a larger range between the position limits, attach "
-        "the load, or take away a weight that friction hardly holds";
+        "the load, or remove a weight that friction can hardly hold";
     return "";
   }
   std::string text = "measured, before the inertia is known:";
@@ -259,8 +259,8 @@ std::string Commissioning::find_motion() {
   const std::optional<MotionEstimates> found = fit_motion(strokes_, config_.told);
   if (!found) {
     record_.problem =
-        "no joint like the configured one explains the motion: check gear and gear_ratio; else the motion "
-        "was too even: give a larger range, speed or torque limit";
+        "the model of the configured joint does not fit the motion: check gear and gear_ratio; if they are "
+        "right, give a larger range, speed or torque limit";
     return "";
   }
   record_.values = compare_with(config_.configured, *found);
@@ -275,7 +275,7 @@ std::string Commissioning::find_motion() {
   else
     record_.problem = fmt::format(
         "{}: not known to 5 %, since the link hardly swings: give a larger range, speed or torque limit, or "
-        "attach the load; a load below a third of the motor's inertia takes them from data sheets",
+        "attach the load; with a load below a third of the motor's inertia, take them from data sheets",
         missing_in(*found));
   // Friction again, without the accelerating torque. If the steady strokes are of an earlier run, this finds fewer speeds and is not used.
   if (const std::vector<FrictionAtSpeed> friction =
@@ -290,7 +290,7 @@ std::string Commissioning::find_motion() {
 std::string Commissioning::compare() {
   record_.problem = find_wrong(record_.values, config_.told.gear_ratio);
   if (record_.problem.empty()) record_.problem = find_late(record_.values);
-  return "no configured number differs by 30 % from what is measured";
+  return "no configured number differs from the measured one by 30 % or more";
 }
 
 }  // namespace strainwave

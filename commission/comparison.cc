@@ -110,8 +110,8 @@ std::string find_late(const std::vector<CommissionValue>& values) {
   for (const CommissionValue& value : values)
     if (value.unit == kPeriods && value.measured.value > kMostDelay_periods)
       return fmt::format(
-          "{}: {:.2f} periods are measured, and a table is for {:g} at most: make the drive answer "
-          "sooner, or daemon.period_s longer",
+          "{}: {:.2f} periods are measured, and a table allows at most {:g}: make the drive answer sooner, "
+          "or give a longer daemon.period_s",
           value.key, value.measured.value, kMostDelay_periods);
   return "";
 }
@@ -119,9 +119,9 @@ std::string find_late(const std::vector<CommissionValue>& values) {
 std::string find_wrong(const std::vector<CommissionValue>& values, double gear_ratio) {
   if (const std::optional<double> factor = wrong_scale(values))
     return fmt::format(
-        "{} and {} are {:.2f} times what is measured, so one scale is wrong: gear_ratio = {:g} is configured "
-        "and {:.1f} fits, or the torque constant or the counts per revolution are {:.2f} times the right "
-        "ones",
+        "{} and {} are {:.2f} times the measured values, so one scale is wrong: either gear_ratio = {:g} "
+        "should be {:.1f}, or the torque constant or the counts per revolution are {:.2f} times the right "
+        "value",
         kLoadKey, kStiffnessKey, *factor, gear_ratio, gear_ratio * std::sqrt(*factor), 1.0 / *factor);
   // The total inertia is reported only if one of the two inertias is missing.
   const bool both = factor_of(values, kMotorKey) > 0.0 && factor_of(values, kLoadKey) > 0.0;

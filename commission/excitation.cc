@@ -133,27 +133,29 @@ double Excitation::ramp_Nm(double position_rad) {
   const long rest = std::lround(0.25 / config_.period_s);
   if (stage_periods_ <= rest) {  // the joint comes to rest
     if (done_ == 0 && std::abs(quick_rad_s_) > sliding_speed_rad_s(config_.gear_ratio))
-      abort(fmt::format("the joint moves without torque at {:.4f} rad: it falls, or is moved", position_rad));
+      abort(fmt::format("the joint moves without torque at {:.4f} rad: it falls, or something moves it",
+                        position_rad));
     return 0.0;
   }
   const double torque = way * config_.limits.torque_Nm * config_.period_s / kRamp_s *
                         static_cast<double>(stage_periods_ - rest);
   if (std::abs(torque) > kBlocked * config_.limits.torque_Nm) {
-    abort(fmt::format(
-        "the joint has not moved at {:.2f} N.m, and {:.2f} N.m is allowed: is the brake open? Else a larger "
-        "torque_limit_Nm or a warmer joint is needed",
-        torque, config_.limits.torque_Nm));
+    abort(
+        fmt::format("the joint has not moved at {:.2f} N.m of the allowed {:.2f} N.m: is the brake open? If "
+                    "it is, give a larger torque_limit_Nm, or warm the joint",
+                    torque, config_.limits.torque_Nm));
     return 0.0;
   }
   if (std::abs(quick_rad_s_) < sliding_speed_rad_s(config_.gear_ratio)) return torque;
   if (quick_rad_s_ * way < 0.0 && std::abs(torque) < kFalls * config_.limits.torque_Nm) {
-    abort(fmt::format("the joint falls, or is moved: at {:.2f} N.m it goes the other way at {:.4f} rad",
-                      torque, position_rad));
+    abort(fmt::format(
+        "the joint falls, or something moves it: at {:.2f} N.m it moves against the torque at {:.4f} rad",
+        torque, position_rad));
     return 0.0;
   }
   if (quick_rad_s_ * way < 0.0) {
     abort(fmt::format(
-        "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad; a load that falls does so, too",
+        "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad; a falling load does the same",
         torque, position_rad));
     return 0.0;
   }
@@ -259,9 +261,10 @@ void Excitation::adapt_shaking() {
 
 void Excitation::record(const ActuatorReading& reading, double torque_Nm) {
   if (trace_.samples.size() == trace_.samples.capacity())
-    return abort(fmt::format(
-        "it took more than the {:.0f} s allowed: give a larger speed_limit_rad_s or a smaller range",
-        config_.longest_s));
+    return abort(
+        fmt::format("the measurement took more than the allowed {:.0f} s: give a larger speed_limit_rad_s or "
+                    "a smaller range",
+                    config_.longest_s));
   JointSample sample;
   sample.motor_position_rad = reading.joint_position_rad;
   if (reading.has_link_position) sample.link_position_rad = reading.link_position_rad;

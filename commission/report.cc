@@ -96,13 +96,13 @@ std::string values_table(const CommissionRecord& record) {
     add_row(html, value.key, value.configured ? digits(*value.configured, kDigits) : "", value.measured,
             digits(value.used, kDigits), value.unit);
   if (record.breakaway_positive_Nm)
-    add_row(html, "torque of breaking away, positive", "", *record.breakaway_positive_Nm, "", "N m");
+    add_row(html, "breakaway torque, positive", "", *record.breakaway_positive_Nm, "", "N m");
   if (record.breakaway_negative_Nm)
-    add_row(html, "torque of breaking away, negative", "", *record.breakaway_negative_Nm, "", "N m");
+    add_row(html, "breakaway torque, negative", "", *record.breakaway_negative_Nm, "", "N m");
   if (record.kinematic_error_rad) {
-    add_row(html, "kinematic error, once a motor turn", "", {(*record.kinematic_error_rad)[0], 0.0}, "",
+    add_row(html, "kinematic error, once per motor turn", "", {(*record.kinematic_error_rad)[0], 0.0}, "",
             "rad");
-    add_row(html, "kinematic error, twice a motor turn", "", {(*record.kinematic_error_rad)[1], 0.0}, "",
+    add_row(html, "kinematic error, twice per motor turn", "", {(*record.kinematic_error_rad)[1], 0.0}, "",
             "rad");
   }
   return html + "</table>\n";
@@ -144,9 +144,8 @@ std::string response_charts(const CommissionRecord& record) {
     }
   }
   return heading("Response of the motor to torque") + to_svg(magnitude) + to_svg(phase) +
-         "<p>The model has the stiffness of slow motion. A swing within the lost motion meets up to twice of "
-         "it, "
-         "so the measured resonance may lie higher by a factor of up to 1.4.</p>\n";
+         "<p>The model has the stiffness of slow motion. A swing within the lost motion meets up to twice "
+         "this stiffness, so the measured resonance may be up to 1.4 times higher.</p>\n";
 }
 
 std::string friction_chart(const CommissionRecord& record, const ReportedDesign& design) {

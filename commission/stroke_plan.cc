@@ -42,9 +42,10 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
   const double high = limits.position_max_rad - margin_rad(limits);
   const double turn_rad = kTurn_rad / config.gear_ratio;
   if (config.start_rad < low || config.start_rad > high)
-    throw InputError("commission", "position_rad", std::to_string(config.start_rad),
-                     "must be within " + std::to_string(low) + " to " + std::to_string(high) +
-                         " rad, a tenth inside of joint.limits: move the joint there");
+    throw InputError(
+        "commission", "position_rad", std::to_string(config.start_rad),
+        "must be within " + std::to_string(low) + " to " + std::to_string(high) +
+            " rad, which leaves a tenth of the range to each of joint.limits: move the joint there");
   if (high - low < kLeastTurns * turn_rad)
     throw InputError(
         "joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
@@ -54,13 +55,13 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
   if (limits.speed_rad_s < least_rad_s)
     throw InputError(
         "joint.limits", "speed_limit_rad_s", std::to_string(limits.speed_rad_s),
-        "must be at least " + std::to_string(least_rad_s) + " rad/s: below, the motor sticks and slips");
+        "must be at least " + std::to_string(least_rad_s) + " rad/s: below this, the motor sticks and slips");
   const double slowest = 1.5 * sliding_speed_rad_s(config.gear_ratio);
   const double fastest = std::min(kTopSpeedShare * limits.speed_rad_s,
                                   std::sqrt(0.25 * limits.acceleration_rad_s2 * (high - low)));
   if (fastest < 1.2 * slowest)
     throw InputError("joint.limits", "acceleration_rad_s2", std::to_string(limits.acceleration_rad_s2),
-                     "must be larger, or the range between the position limits: the motor sticks and slips "
+                     "must be larger, or the position limits further apart: the motor sticks and slips "
                      "below " +
                          std::to_string(1.2 * slowest) + " rad/s");
   std::vector<Stroke> strokes;

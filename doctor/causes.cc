@@ -14,9 +14,8 @@ const std::vector<Cause>& causes() {  // NOLINT(readability-function-size): a ta
   using enum Feature;
   static const std::vector<Cause> kCauses{
       {"wrong sign",
-       "turn the sign of the torque or of the encoder: `direction` (CAN), `reversed` (GPIO) or the wiring; "
-       "compare with a "
-       "turn by hand",
+       "reverse the sign of the torque or of the encoder: `direction` (CAN), `reversed` (GPIO) or the "
+       "wiring; to check, turn the joint by hand",
        {},
        {kReversed}},
       {"gear ratio",

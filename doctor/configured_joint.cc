@@ -46,7 +46,7 @@ void read_inertia(TomlSection& joint, ConfiguredJoint& told) {
 void read_driver(TomlSection& joint, ConfiguredJoint& told) {
   TomlSection driver = joint.section_or_empty(joint.text("driver"));
   if (driver.text_or("drive_mode", "torque") != "torque")
-    driver.fail("drive_mode", "\"torque\" is allowed: of another the torque that was ordered is not known");
+    driver.fail("drive_mode", "\"torque\" is allowed: in another mode the ordered torque is not known");
   if (driver.has("delay_periods"))
     told.delay_periods = static_cast<int>(driver.integer("delay_periods", 0, 1000));
   if (told.link && driver.text_or("encoder_side", "motor") == "link") told.link->measured_at_link = true;

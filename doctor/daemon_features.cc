@@ -46,12 +46,11 @@ void add_temperature(const Evidence& evidence, Features& features) {
   for (const temperature_v1& temperature : evidence.temperatures) last_C = temperature.temperature_measured_C;
   features[Feature::kTemperatureSilent] =
       Observation{silent, 0.05, fmt::format("in {:.0f} % of the time no temperature came", 100.0 * silent)};
-  features[Feature::kTemperatureDoubt] = Observation{
-      doubtful + 0.25 * clamped, 0.05,
-      fmt::format(
-          "in {:.0f} % of the time the temperature could not be believed, in {:.0f} % it was outside the "
-          "table; the sensor said {:.1f} degC",
-          100.0 * doubtful, 100.0 * clamped, last_C)};
+  features[Feature::kTemperatureDoubt] =
+      Observation{doubtful + 0.25 * clamped, 0.05,
+                  fmt::format("in {:.0f} % of the time the temperature was implausible, in {:.0f} % it was "
+                              "outside the table; the last measured value was {:.1f} degC",
+                              100.0 * doubtful, 100.0 * clamped, last_C)};
 }
 
 void add_faults(const Evidence& evidence, Features& features) {
@@ -120,8 +119,7 @@ void add_clock(const Evidence& evidence, Features& features) {
   constexpr std::size_t kLeastBlocks = 4;
   const std::vector<double> lead_s = least_leads_s(evidence, kBlock_s);
   if (lead_s.size() < kLeastBlocks) {
-    features.not_judged.emplace_back(
-        "clocks: the recording has no time of the sender, or lasts less than 2 s");
+    features.not_judged.emplace_back("clocks: the recording has no sender's times, or lasts less than 2 s");
     return;
   }
   double jumps_s = 0.0;

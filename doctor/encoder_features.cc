@@ -29,7 +29,8 @@ void add_noise(const Evidence& evidence, const std::vector<Stretch>& stretches, 
       squares.push_back(std::pow(at[0] - 3.0 * at[-1] + 3.0 * at[-2] - at[-3], 2) / 20.0);
     }
   if (squares.size() < 50) {
-    features.not_judged.emplace_back("electrical noise: the recording has no rest under control");
+    features.not_judged.emplace_back(
+        "electrical noise: the joint never rests under control in this recording");
     return;
   }
   double sum = 0.0;
@@ -81,7 +82,8 @@ void add_link(const std::vector<Stretch>& stretches, Features& features) {
     }
   if (!there) {
     features.not_judged.emplace_back(
-        "slipping coupling, and counts that go missing without a fault: they need an encoder at the link");
+        "slipping coupling, and counts that go missing without a fault: only an encoder at the link shows "
+        "them");
     return;
   }
   Travel slow, fast;

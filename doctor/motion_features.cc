@@ -73,7 +73,7 @@ void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& featu
   if (inertia.value < -kSure * inertia.deviation)
     features[Feature::kReversed] =
         Observation{1.0, 0.1,
-                    fmt::format("torque accelerates the joint against its sign: {:.3f} +-{:.3f} kg m2",
+                    fmt::format("torque accelerates the joint the wrong way: inertia {:.3f} +-{:.3f} kg m2",
                                 inertia.value, inertia.deviation)};
   if (!evidence.told.inertia_kgm2) return;
   const double share = inertia.deviation / std::min(std::abs(inertia.value), *evidence.told.inertia_kgm2);
@@ -109,13 +109,13 @@ void add_delay(const Evidence& evidence, const MotionFit& fit, Features& feature
     return;
   }
   if (fit.delay_periods.deviation > 0.5) {
-    features.not_judged.emplace_back(
-        fmt::format("delay: it is known to {:.1f} periods only; set daemon.state_rate_Hz to the loop's rate",
-                    fit.delay_periods.deviation));
+    features.not_judged.emplace_back(fmt::format(
+        "delay: the recording shows it to {:.1f} periods only; set daemon.state_rate_Hz to the loop's rate",
+        fit.delay_periods.deviation));
     return;
   }
   if (evidence.told.link && !knows_stiffness(evidence, fit)) {
-    features.not_judged.emplace_back("delay: the motion does not tell it from the spring");
+    features.not_judged.emplace_back("delay: the motion does not distinguish it from the spring");
     return;
   }
   features[Feature::kDelay] = Observation{
@@ -226,7 +226,7 @@ void add_motion_features(const Evidence& evidence, Features& features) {
   add_stiffness(evidence, *fit, features);
   features[Feature::kLoad] = Observation{
       fit->load_Nm, std::hypot(kLoadShare * evidence.torque_limit_Nm(), fit->load_deviation_Nm),
-      fmt::format("at {:.2f} rad {:+.2f} +-{:.2f} N.m push the joint besides the configured gravity",
+      fmt::format("at {:.2f} rad {:+.2f} +-{:.2f} N.m push the joint in addition to the configured gravity",
                   fit->load_at_rad, -fit->load_Nm, fit->load_deviation_Nm)};
 }
 

@@ -45,7 +45,8 @@ TEST(Commissioning, NamesADriveThatGivesLessTorqueThanItIsOrdered) {
   Bench bench(joint);
   Commissioning commissioning(configure(joint));
   bench.run(commissioning);
-  EXPECT_NE(commissioning.record().problem.find("set torque_limit_Nm to what it can give"), std::string::npos)
+  EXPECT_NE(commissioning.record().problem.find("set torque_limit_Nm to what the drive can give"),
+            std::string::npos)
       << bench.lines();
 }
 
