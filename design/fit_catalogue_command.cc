@@ -169,7 +169,7 @@ bool rules_follow_the_law(const Job& job) {
   const auto temperatures = static_cast<int>(job.problem.targets.temperature_C.size());
   if (temperatures >= kTemperaturesPerRule * job.options.rules) return false;
   std::printf(
-      "  WARNING: %d temperatures are few for %d rules, %d or more fix their curve: the rules follow the "
+      "  WARNING: %d temperatures are too few for %d rules, which need at least %d: the rules follow the "
       "exponential law instead (--rules-from)\n",
       temperatures, job.options.rules, kTemperaturesPerRule * job.options.rules);
   return true;
@@ -225,11 +225,10 @@ void report_outliers(const Job& job) {
     const FrictionPoint& point = job.data.points[static_cast<std::size_t>(outlier.row)];
     std::printf(
         "  WARNING: %g degC is an outlier: static %+.3g, Coulomb %+.3g N.cm, viscous %+.3g N.cm/RPM from the "
-        "law of the others, "
-        "whose cost without it is %.3g instead of %.3g; %s\n",
+        "law of the others; the cost is %.3g without it and %.3g with it; %s\n",
         point.temperature_C, outlier.error(0), outlier.error(1), outlier.error(2), outlier.cost_without,
         outlier.cost,
-        job.options.outliers == "keep" ? "it spoils the whole fit: correct it, or --outliers leave-out"
+        job.options.outliers == "keep" ? "it distorts the whole fit: correct it, or give --outliers leave-out"
                                        : "left out");
   }
 }

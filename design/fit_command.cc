@@ -91,13 +91,13 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
       ->capture_default_str();
   command
       ->add_option("--non-increasing", options->fit.non_increasing,
-                   "over temperature: the curve between all temperatures, or only the rules' friction")
+                   "what must not rise with temperature: the whole curve, or only the rules' friction")
       ->check(CLI::IsMember({"curve", "rules"}))
       ->capture_default_str();
   command
-      ->add_option("--rules-from", options->fit.rules_from,
-                   "what the fuzzy rules follow; auto: the data where there are two temperatures or more for "
-                   "each rule")
+      ->add_option(
+          "--rules-from", options->fit.rules_from,
+          "what the fuzzy rules follow; auto: the data if there are at least two temperatures per rule")
       ->check(CLI::IsMember({"auto", "data", "exponential"}))
       ->capture_default_str();
   command

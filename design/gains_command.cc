@@ -99,7 +99,7 @@ void take_friction(const GainsOptions& options, RequestedJoint& joint) {
     return;
   }
   if (options.gear.empty())
-    throw InputError("gains: give --friction, or --gear, whose friction the catalogue has: " + gear_names());
+    throw InputError("gains: give --friction, or --gear with a gear of the catalogue: " + gear_names());
   const CatalogueFriction friction = catalogue_friction(gear_of(options), model_of(options));
   joint.rules = friction.rules;
   joint.note = friction.note;

@@ -58,7 +58,8 @@ CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_
   scale_to(gear, gear.ratio / known_ratio, friction.rules.friction);
   friction.note = kEstimatedFriction;
   friction.origin =
-      "an estimate from the catalogue of gears, expect half to twice; measure it with strainwavectl identify";
+      "an estimate from the catalogue of gears, which may be half or twice the true friction; measure it "
+      "with strainwavectl identify";
   return friction;
 }
 
@@ -73,7 +74,7 @@ std::string friction_doubt(const FuzzyFriction& given, const Gear* gear) {
   const double usual_Nm = coulomb_Nm(catalogue_friction(*gear, usual_model(*gear)).rules.friction);
   if (found_Nm <= kMostFactor * usual_Nm && found_Nm >= usual_Nm / kMostFactor) return "";
   return "WARNING: --friction has " + bound_text(found_Nm) +
-         " N.m of Coulomb friction at the joint and 20 degC, where a " + gear->name + " has about " +
+         " N.m of Coulomb friction at the joint and 20 degC, but a " + gear->name + " has about " +
          bound_text(usual_Nm) + ": check its unit, and its side of the gear (--rules-side)\n";
 }
 
@@ -84,7 +85,7 @@ double usual_torque_weight(const Gear& gear, double actuators) {
 MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, const std::string& joint_model,
                                  const std::optional<double>& rotor_kgm2) {
   if (gear == nullptr)
-    throw InputError(place + ": give --gear, whose spring is before the load: " + gear_names());
+    throw InputError(place + ": give --gear, the gear between motor and load: " + gear_names());
   const std::string wave_generator = "the wave generator's " + number_text(gear->wave_generator_inertia_kgm2);
   if (rotor_kgm2 && !(*rotor_kgm2 >= 0.0))
     throw InputError(place, "--rotor-inertia_kgm2", number_text(*rotor_kgm2), "must not be negative");
@@ -92,9 +93,10 @@ MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, con
     return {(*rotor_kgm2 + gear->wave_generator_inertia_kgm2) * gear->ratio * gear->ratio,
             "of the rotor and " + wave_generator + ", times " + number_text(gear->ratio) + " squared"};
   if (is_actuator(*gear, joint_model)) return {catalogue_joint().motor_inertia_kgm2, actuator_origin()};
-  throw InputError(place + ": which motor drives " + gear->name +
-                   "? Give its rotor's inertia from its data sheet, gains --rotor-inertia_kgm2, to which " +
-                   wave_generator + " is added; or give --motor-inertia_kgm2, of both at the joint");
+  throw InputError(
+      place + ": the motor of " + gear->name +
+      " is not known: give the rotor's inertia of its data sheet with gains --rotor-inertia_kgm2, to which " +
+      wave_generator + " is added, or the inertia of both at the joint with --motor-inertia_kgm2");
 }
 
 }  // namespace strainwave

@@ -76,7 +76,7 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
     if (verdict.certified) best = {table, verdict.text};
   }
   const BoxReport report = certify_box(best.table);
-  if (!report.certified) throw NotAchieved("gains: the box's cells do not prove it: " + report.text);
+  if (!report.certified) throw NotAchieved("gains: the cells of the box are not certified: " + report.text);
   std::ostringstream text;
   text << "torque weight " << best.table.primary.weights.torque << "\n"
        << best.text << "the table's box: " << describe(best.table.box) << "\n";
@@ -105,8 +105,8 @@ GainTable design_rigid(Controller controller, const TableRequest& request) {
            << weights.velocity << "," << weights.torque;
     throw NotAchieved(text + wanted.str());
   }
-  throw NotAchieved(text + "Nor are those of torque weights up to " +
-                    number_text(softer.design.weights.torque) + ".");
+  throw NotAchieved(text + "Gains with torque weights of up to " + number_text(softer.design.weights.torque) +
+                    " are not certified either.");
 }
 
 namespace {
@@ -150,7 +150,9 @@ SpringDesign design_on_spring(Controller controller, const TableRequest& request
                       " in place of --load or --load-inertia_kgm2.");
   }
   if (spring.motor_inertia_kgm2.from == spring.motor_inertia_kgm2.to)
-    refusal += "\nTried were motor inertias within 5 and 2 %: give a narrower --motor-inertia_kgm2 FROM..TO.";
+    refusal +=
+        "\nThe design tried ranges of 5 and 2 % around the motor inertia: give a narrower "
+        "--motor-inertia_kgm2 FROM..TO.";
   throw NotAchieved(refusal);
 }
 

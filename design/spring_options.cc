@@ -20,7 +20,8 @@ BoxRange parse_range(const std::string& place, const std::string& key, const std
   const double from = parse_number(text.substr(0, dots), place, key);
   const double to = dots == std::string::npos ? from : parse_number(text.substr(dots + 2), place, key);
   if (!(from >= least && from <= to))
-    throw InputError(place, key, text, "must be FROM..TO, ascending, from " + number_text(least));
+    throw InputError(place, key, text,
+                     "must be FROM..TO, ascending, or one number, of at least " + number_text(least));
   return {from, to};
 }
 
@@ -35,26 +36,27 @@ BoxRange parse_load(const std::string& place, const std::string& key, const std:
   const double radius_m = parse_number(text.substr(at + 3, text.size() - at - 4), place, key);
   const BoxRange load{mass_kg.from * radius_m * radius_m, mass_kg.to * radius_m * radius_m};
   if (!(load.from >= kLeastInertia_kgm2 && radius_m > 0.0))
-    throw InputError(place, key, text, "must be of a mass and a radius above 0");
+    throw InputError(place, key, text, "mass and radius must be above 0");
   return load;
 }
 
 }  // namespace
 
 void add_spring_options(CLI::App& command, SpringOptions& options) {
-  CLI::Option* const load = command.add_option("--load-inertia_kgm2,--load", options.load_inertia_kgm2,
-                                               "also for a flexible joint, with a link inertia of FROM..TO, "
-                                               "or of a mass at a radius, such as 3kg@0.4m");
+  CLI::Option* const load =
+      command.add_option("--load-inertia_kgm2,--load", options.load_inertia_kgm2,
+                         "inertia of the link, which makes the joint flexible: FROM..TO, one number, or a "
+                         "mass at a radius, such as 3kg@0.4m");
   command
       .add_option(
           "--motor-inertia_kgm2", options.motor_inertia_kgm2,
-          "its inertia before the spring, at the joint, FROM..TO, or one number, which gains widens by "
-          "5 % to both sides where it can (default: of the catalogue's actuator with the gear)")
+          "inertia of the motor at the joint, before the spring: FROM..TO, or one number, which gains widens "
+          "by 5 or 2 % to both sides if possible (default: of the catalogue's actuator with the gear)")
       ->needs(load);
   command
       .add_option("--stiffness_Nm_rad", options.stiffness_Nm_rad,
-                  "the first slope as measured, FROM..TO or one number, by which the gear's others grow, too "
-                  "(default: the gear's)")
+                  "measured first slope of the spring, FROM..TO or one number; the gear's other slopes scale "
+                  "with it (default: the gear's)")
       ->needs(load);
   command
       .add_option("--damping_Nms_rad", options.damping_Nms_rad,

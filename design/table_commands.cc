@@ -47,10 +47,8 @@ BoxRange motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table
 std::optional<SpringRequest> requested_spring(const VerifyOptions& options, const GainTable& table) {
   if (!options.spring.given()) {
     if (!options.gear.empty())
-      throw InputError(
-          "verify", "--gear", options.gear,
-          "is the spring of a joint with links behind it: give --load-inertia_kgm2 as well, or leave "
-          "it out");
+      throw InputError("verify", "--gear", options.gear,
+                       "is for a joint with a spring: give --load-inertia_kgm2 as well, or leave --gear out");
     return std::nullopt;
   }
   SpringRequest request = spring_request(options.spring, "verify", motor_inertia_kgm2(options, table));
@@ -86,7 +84,7 @@ ExitStatus verify(const VerifyOptions& options) {
   if (report.certified) std::fputs(stiffness_text(table.box).c_str(), stdout);
   if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
   if (table.primary.has_integrator != 0 && !proves_slow_part(table.primary, table.plant)) {
-    std::printf("NOT CERTIFIED: P of rule 0 does not fall, by which anti-windup works\n");
+    std::printf("NOT CERTIFIED: P of rule 0, which the anti-windup uses, does not fall\n");
     certified = false;
   }
   if (options.exact) certified = verify_exactly(table) && certified;
@@ -108,7 +106,7 @@ void add_verify_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("TABLE", options->path, "gain table (JSON)")->required();
   command->add_option("--gear", options->gear,
-                      "the gear that is its spring, by its catalogue name (default: the table's)");
+                      "the gear whose spring the joint has, by its catalogue name (default: the table's)");
   command->add_flag("--exact", options->exact,
                     "prove the table a second time, by other code and without rounding; up to a minute");
   add_spring_options(*command, options->spring);

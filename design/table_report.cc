@@ -79,8 +79,9 @@ std::string description(const GainTable& table) {
                  str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s);
   if (!plant.gear.view().empty()) text += "  gear " + str(plant.gear) + "\n";
   text += "  certified for: " + describe(table.box) + "\n";
-  text += format("  (%d cells; the state feedback, not observer, planned motion or fed forward friction)\n",
-                 table.box.cell_count);
+  text += format(
+      "  (%d cells; for the state feedback, not for observer, planned motion or friction feed-forward)\n",
+      table.box.cell_count);
   text += stiffness_text(table.box);
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);

@@ -34,7 +34,7 @@ void prove_box(const GainTable& table, ExactReport& report) {
   for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
     if (is_covered(box, delay, box.stiffness_Nm_rad, box.link_inertia_kgm2)) continue;
     report.certified = false;
-    report.refusal = "a part of the box has no cell with a delay of " + std::to_string(delay);
+    report.refusal = "no cell covers a part of the box with delay " + std::to_string(delay);
     return;
   }
   for (int i = 0; i < box.cell_count && report.certified; ++i)

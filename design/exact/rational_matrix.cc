@@ -69,7 +69,8 @@ struct Tail {
 Tail tail_of_series(const mpq_class& beta) {
   if (beta > kMostNorm)
     throw std::domain_error(
-        "the period is too long: the joint's swing or friction makes the series too long");
+        "the period is too long for an exact proof: the joint's resonance or friction needs too many terms "
+        "of a series");
   mpq_class term = 1;
   for (unsigned long k = 1;; ++k) {
     term = rounded_up(term * beta / k);

@@ -105,8 +105,7 @@ FrictionData from_running_torque(const CsvTable& csv, std::optional<double> star
       starting_column = c;
     } else if (const auto speed = speed_of_column(csv.columns[c])) {
       if (std::ranges::find(data.motor_speeds_rpm, *speed) != data.motor_speeds_rpm.end())
-        throw InputError(csv.source + ": column " + csv.columns[c] +
-                         ": there is another one of the same speed");
+        throw InputError(csv.source + ": column " + csv.columns[c] + ": another column has the same speed");
       torque_columns.push_back(c);
       data.motor_speeds_rpm.push_back(*speed);
     } else {
@@ -182,8 +181,8 @@ void require_rising(const FrictionData& data, const std::string& source) {
   if (2 * static_cast<std::size_t>(falling) <= data.points.size()) return;
   throw InputError(source + ": torque falls with speed at " + std::to_string(falling) + " of " +
                    std::to_string(data.points.size()) +
-                   " temperatures, where that of a gear rises: are the columns of the speeds in the reverse "
-                   "order, or is a speed below 20 RPM (then leave it out)?");
+                   " temperatures, but the torque of a gear rises: are the columns of the speeds in the "
+                   "reverse order, or is a speed below 20 RPM (then leave it out)?");
 }
 
 }  // namespace
@@ -198,8 +197,8 @@ FrictionData read_catalogue(const std::filesystem::path& path, std::optional<dou
   if (data.points.size() < 3)
     throw InputError(
         csv.source + ": holds " + counted(data.points.size(), "temperature") +
-        ": at least three are needed. Read more off the catalogue's curve over "
-        "temperature. Where it has none, multiply the torques of the shipped no_load_torque.csv so "
+        ": at least three are needed. Read more from the catalogue's curve over temperature. If it has no "
+        "such curve, multiply the torques of the shipped no_load_torque.csv so "
         "that they match yours at your temperature, and correct the fit with logs of strainwavectl "
         "identify");
   for (std::size_t r = 0; r < data.points.size(); ++r) {

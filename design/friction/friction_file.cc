@@ -30,7 +30,7 @@ FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide si
   if (std::ranges::find(csv.columns, "temperature_C") != csv.columns.end())
     throw InputError(
         csv.source +
-        ": is a catalogue over temperature, not fuzzy rules: strainwave-design fit makes those of it");
+        ": is a catalogue over temperature, not fuzzy rules: fit the rules to it with strainwave-design fit");
   std::vector<std::size_t> index;
   index.reserve(columns.size());
   for (const std::string& column : columns) index.push_back(csv.column(column));
@@ -153,7 +153,7 @@ FrictionRules friction_rules_from_json(const std::string& text, const std::strin
   if (!file.fuzzy) throw InputError(source + ": has no fuzzy rules: fit with --model fuzzy or both");
   if (std::abs(file.gear_ratio - gear_ratio) > 1e-9 * gear_ratio) {
     throw InputError(source, "gear_ratio", number_text(file.gear_ratio),
-                     "the gains are asked for ratio " + number_text(gear_ratio) + "; use the same in both");
+                     "must be the ratio of the gains, " + number_text(gear_ratio));
   }
   return {file.fuzzy->friction, sha256_hex(text)};
 }

@@ -57,7 +57,7 @@ void require_enough(const Contents& contents, const std::string& name) {
   }
   if (!(contents.limits->period_s > 0.0) || !(contents.limits->inertia_kgm2 > 0.0) ||
       !(contents.limits->gear_ratio > 0.0))
-    throw InputError(name + ": its LIMITS are not those of a joint");
+    throw InputError(name + ": its LIMITS are invalid: period, inertia and gear ratio must be above 0");
 }
 
 }  // namespace
