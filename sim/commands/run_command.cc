@@ -86,7 +86,7 @@ void print_limit(const ClosedLoopConfig& config, const LoopStatistics& judged, d
                 << " over " << number(*limit.counted_pi2, 6) << ": "
                 << number(counted / *limit.counted_pi2, 6) << "\n";
   } catch (const InputError& error) {
-    std::cout << "no physical limit is known of this run: " << error.what() << "\n";
+    std::cout << "no physical limit is known for this run: " << error.what() << "\n";
   }
 }
 

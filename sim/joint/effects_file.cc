@@ -43,9 +43,9 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
   // A slope outside every range of torque would be ignored, so it is refused.
   if (section.has("stiffness_2_Nm_rad") && spring.torque_2_Nm <= spring.torque_1_Nm)
     section.fail("stiffness_2_Nm_rad",
-                 "it is allowed only with torque_1_Nm below torque_2_Nm, between which it is the slope");
+                 "it is allowed only with torque_1_Nm below torque_2_Nm: it is the slope between them");
   if (section.has("stiffness_3_Nm_rad") && spring.torque_2_Nm <= 0.0)
-    section.fail("stiffness_3_Nm_rad", "it is allowed only with torque_2_Nm, from which on it is the slope");
+    section.fail("stiffness_3_Nm_rad", "it is allowed only with torque_2_Nm: it is the slope above it");
   spring = spring.scaled(section.number_or("scale", 1.0, {0.01, 100.0}));
   transmission.damping_Nms_rad =
       section.number_or("damping_Nms_rad", transmission.damping_Nms_rad, kNotNegative);
@@ -63,12 +63,11 @@ KinematicError read_kinematic_error(TomlSection section, double gear_ratio) {
   section.refuse_unknown_keys();
   const double steepest = -gear_ratio * error.least_slope();
   if (steepest >= 1.0)
-    section.fail(
-        error.amplitude_rad[0] >= 2.0 * error.amplitude_rad[1] ? "once_rad" : "twice_rad",
-        "less is allowed: with " + number_text(gear_ratio) +
-            " motor turns per joint turn the link would turn back while the motor goes on; once_rad and "
-            "twice_rad below " +
-            number_text(1.0 / steepest) + " of what they are do not");
+    section.fail(error.amplitude_rad[0] >= 2.0 * error.amplitude_rad[1] ? "once_rad" : "twice_rad",
+                 "less is allowed: with " + number_text(gear_ratio) +
+                     " motor turns per joint turn, the link would turn back while the motor goes on; "
+                     "multiply once_rad and twice_rad by less than " +
+                     number_text(1.0 / steepest));
   return error;
 }
 
@@ -77,7 +76,7 @@ void read_transmission(TomlSection& section, bool gear_sets_ratio, JointEffects&
   if (!section.has("link")) {
     for (const char* key : {"gear", "spring", "kinematic_error"})
       if (section.has(key) && !effects.transmission)
-        section.fail(key, "a gear's spring needs link.inertia_kgm2, what turns behind it");
+        section.fail(key, "a gear's spring needs link.inertia_kgm2, the inertia of the link behind it");
     if (!effects.transmission) return;
   }
   Transmission transmission = effects.transmission.value_or(Transmission{});

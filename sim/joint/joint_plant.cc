@@ -52,8 +52,9 @@ void check_friction(const ExponentialTemperatureLaw& law) {
       "at least friction.asymptote_coulomb_Nm = " + number_text(law.asymptote.coulomb_Nm) + " is allowed");
   const FrictionParameters cold = law.at(kColdest_C);
   require(cold.static_Nm >= cold.coulomb_Nm, "friction.amplitude_static_Nm", law.amplitude.static_Nm,
-          "more is allowed: at " + number_text(kColdest_C) + " degC static friction is " +
-              number_text(cold.static_Nm) + " N.m, less than Coulomb's of " + number_text(cold.coulomb_Nm));
+          "must be larger: at " + number_text(kColdest_C) + " degC static friction is " +
+              number_text(cold.static_Nm) + " N.m, below the Coulomb friction of " +
+              number_text(cold.coulomb_Nm) + " N.m");
 }
 
 // Motor and bristles oscillate at sqrt(Fs / (J presliding)) with half of critical damping. A sub-step bears at most 1 rad of it.

@@ -154,7 +154,7 @@ double top_speed_rad_s(const LinkLimitConfig& c) {
 void require_motion(const LinkLimitConfig& c) {
   if (!std::isfinite(c.motor.peak_torque_Nm))
     throw InputError("flexible limit", "peak_torque_Nm", "infinite",
-                     "must be finite: else every move takes no time");
+                     "must be finite: otherwise a move would take no time");
   if (!(c.motor.peak_torque_Nm > c.friction.static_Nm + std::abs(c.load_torque_Nm)))
     throw InputError("flexible limit", "peak_torque_Nm", number_text(c.motor.peak_torque_Nm),
                      "must exceed static friction and load, or the joint cannot move");
@@ -163,9 +163,8 @@ void require_motion(const LinkLimitConfig& c) {
   const double farthest_rad = top_speed_rad_s(c) * kLongestMotion * c.period_s;
   if (std::abs(c.step_rad) > farthest_rad)
     throw InputError("flexible limit", "step_rad", number_text(c.step_rad),
-                     "must be below " + number_text(farthest_rad) +
-                         ", which the joint's top speed covers in the " + std::to_string(kLongestMotion) +
-                         " periods that are solved for");
+                     "must be below " + number_text(farthest_rad) + ", the way at top speed in the " +
+                         std::to_string(kLongestMotion) + " periods that the solver allows");
 }
 
 /// First estimate of the number of periods: bang-bang of the total inertia with the torque that friction

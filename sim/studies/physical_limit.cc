@@ -15,7 +15,7 @@ namespace {
 void require_none(const char* key, double value) {
   if (value != 0.0)
     throw InputError("physical limit", key, number_text(value),
-                     "0 is allowed: the limit is that of the joint without");
+                     "0 is allowed: the physical limit does not include this effect");
 }
 
 /// Refuses the effects that neither limit covers.
@@ -42,7 +42,7 @@ void require_constant(const ClosedLoopConfig& config, const char* key, const Val
     if (value(time_s) != first)
       throw InputError(
           "physical limit", key, number_text(value(time_s)) + " at " + number_text(time_s) + " s",
-          number_text(first) + " throughout is allowed: the limit of a link is that of one step");
+          number_text(first) + " throughout is allowed: the limit of a link is known for one step only");
   }
 }
 

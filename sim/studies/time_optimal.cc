@@ -113,7 +113,7 @@ TimeOptimalResult run_time_optimal(const ClosedLoopConfig& config) {
   const JointPlant checked(config.plant);
   if (!std::isfinite(config.plant.motor.peak_torque_Nm))
     throw InputError("time-optimal motion", "peak_torque_Nm", "infinite",
-                     "must be finite: else every move takes no time");
+                     "must be finite: otherwise a move would take no time");
   const auto count = static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));
   TimeOptimalResult result;
   result.trace.reserve(count);

@@ -161,7 +161,7 @@ TEST_F(SimulatedConfigTest, RefusesGearsAndSpringsThatCannotBe) {
   expect_mentions(error_of(without_gear("stiffness_2_Nm_rad = 11000\n")),
                   {"joint[0].simulated.spring.stiffness_2_Nm_rad", "torque_1_Nm below torque_2_Nm"});
   expect_mentions(error_of(without_gear("stiffness_3_Nm_rad = 13000\n")),
-                  {"joint[0].simulated.spring.stiffness_3_Nm_rad", "torque_2_Nm, from which on"});
+                  {"joint[0].simulated.spring.stiffness_3_Nm_rad", "only with torque_2_Nm"});
   expect_mentions(error_of(joint_with("[joint.simulated.link]\ninertia_kgm2 = -0.1\n")),
                   {"joint[0].simulated.link.inertia_kgm2 = -0.1", "from"});
 }
