@@ -101,7 +101,7 @@ std::string read_token(const std::string& file) {
     refuse("its first line has " + counted(token.size(), "character") + ": a token has at least " +
            std::to_string(AccessRules::kShortestToken));
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
-  if (!std::all_of(token.begin(), token.end(), fits)) refuse("a token is of A-Z a-z 0-9 - and _");
+  if (!std::all_of(token.begin(), token.end(), fits)) refuse("a token consists of A-Z a-z 0-9 - and _");
   return token;
 }
 

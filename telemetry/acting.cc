@@ -40,8 +40,8 @@ void require_operator(const std::filesystem::path& key_file) {
   try {
     if (read_secret_key(key_file).role != Role::kOperator)
       throw InputError(key_file.string() +
-                       ": is an engineer's key: the page needs no more than an operator's "
-                       "(strainwavectl keygen --role operator)");
+                       ": is an engineer's key, and the page accepts only an operator's (strainwavectl "
+                       "keygen --role operator)");
   } catch (const InputError& error) {
     throw InputError(std::string("--key: ") + error.what());
   }
@@ -70,8 +70,8 @@ void Acting::take(const Page& page, const PageOrder& order, double now_s) {
 
 void Acting::obey(const Page& page, const PageOrder& order, double now_s) {
   if (!page.is_own)
-    return answer(page.number,
-                  "commands are taken from the page of this server alone, opened at its own address", true);
+    return answer(page.number, "only the page of this server, opened at its own address, may send commands",
+                  true);
   if (order.action == "open") return open(page, order);
   if (order.action == "stop") return stop(page);
   if (!open_.contains(page.number))
@@ -85,12 +85,12 @@ void Acting::obey(const Page& page, const PageOrder& order, double now_s) {
     return;
   }
   if (!order.joint || !order.quote)
-    return answer(page.number, "a command names its joint, and the session_id and challenge of its state",
+    return answer(page.number, "a command must name its joint, and the session_id and challenge of its state",
                   true);
   if (order.action == "enable") return command(page.number, *order.joint, Action::kEnable, *order.quote);
   if (order.action == "hold") return command(page.number, *order.joint, Action::kHold, *order.quote);
   if (order.action == "jog") return jog(page.number, order, now_s);
-  answer(page.number, "the page may send open, stop, enable, hold, jog and jog-end alone", true);
+  answer(page.number, "the page may send only open, stop, enable, hold, jog and jog-end", true);
 }
 
 void Acting::open(const Page& page, const PageOrder& order) {
@@ -158,7 +158,7 @@ void Acting::jog(std::uint64_t page, const PageOrder& order, double now_s) {
   const auto refuse = [&](const std::string& why) {
     answer(page, full_name(joint) + ": jog: refused, " + why, true);
   };
-  if (!order.jog || !order.velocity_rad_s) return refuse("it has no number or no velocity");
+  if (!order.jog || !order.velocity_rad_s) return refuse("the jog has no number or no velocity");
   if (const auto mine = jogs_.find(joint);
       mine != jogs_.end() && mine->second.page == page && mine->second.number == *order.jog) {
     mine->second.quote = *order.quote;
@@ -172,17 +172,17 @@ void Acting::jog(std::uint64_t page, const PageOrder& order, double now_s) {
   if (jogs_.contains(joint)) return refuse("another page jogs this joint");
   const auto record = fleet_.joints().find(joint);
   if (record == fleet_.joints().end() || !record->second.limits)
-    return refuse("its state and limits have not come yet");
+    return refuse("the joint's state and limits have not come yet");
   const std::int64_t session_id = record->second.limits->session_id;
   if (session_id != record->second.state.session_id || session_id != order.quote->session_id)
-    return refuse("its limits are of another session");
+    return refuse("the joint's limits are of another session of the daemon");
   const limits_v1& limits = *record->second.limits;
   const JogLimits allowed{limits.position_min_rad, limits.position_max_rad,
                           kJogSpeedShare * limits.speed_limit_rad_s,
                           std::fmin(limits.acceleration_rad_s2, limits.deceleration_rad_s2)};
   if (!(allowed.position_min_rad <= allowed.position_max_rad && allowed.speed_rad_s > 0.0 &&
         allowed.acceleration_rad_s2 > 0.0))
-    return refuse("its limits are no limits");
+    return refuse("the joint's limits are invalid");
   const state_v1& state = record->second.state;
   const double position_rad =
       std::isfinite(state.link_position_rad) ? state.link_position_rad : state.joint_position_rad;

@@ -44,10 +44,10 @@ constexpr std::array kDaemonMetrics{
     DaemonMetric{"strainwave_joints", MetricType::kGauge, "Joints of the daemon.",
                  [](const timing_v1& t) { return real(t.joint_count); }},
     DaemonMetric{"strainwave_wakeup_latency_max_seconds", MetricType::kGauge,
-                 "Latest wake-up since the start.",
+                 "Largest wake-up latency since the start.",
                  [](const timing_v1& t) { return kSecondsPerNanosecond * real(t.wakeup_latency_max_ns); }},
     DaemonMetric{"strainwave_execution_time_max_seconds", MetricType::kGauge,
-                 "Longest work of a period since the start.",
+                 "Longest execution time of a period since the start.",
                  [](const timing_v1& t) { return kSecondsPerNanosecond * real(t.execution_time_max_ns); }},
 };
 
@@ -73,11 +73,11 @@ void expose_histograms(Exposition& page, const Fleet::Daemons& daemons) {
   page.family("strainwave_wakeup_latency_seconds", MetricType::kHistogram, "How late the loop woke up.");
   for (const auto& [prefix, daemon] : daemons)
     expose_histogram(page, prefix, daemon.timing.wakeup_latency_count);
-  page.family("strainwave_execution_time_seconds", MetricType::kHistogram, "Work of a period.");
+  page.family("strainwave_execution_time_seconds", MetricType::kHistogram, "Execution time of a period.");
   for (const auto& [prefix, daemon] : daemons)
     expose_histogram(page, prefix, daemon.timing.execution_time_count);
   page.family("strainwave_position_delay_seconds", MetricType::kHistogram,
-              "From a position's sampling until it came; of drives that let it be measured.");
+              "Time from a position's sampling until it came, for drives that allow its measurement.");
   for (const auto& [prefix, daemon] : daemons)
     if (daemon.timing.position_delay_max_ns > 0)
       expose_histogram(page, prefix, daemon.timing.position_delay_count);

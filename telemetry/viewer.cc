@@ -135,15 +135,15 @@ std::optional<std::string> Viewer::take(std::string_view text, const Topics& top
     if (list == nullptr) return refusal("unsubscribe needs an array 'subscriptionIds'");
     for (const Json& entry : *list) {
       const auto id = number(entry);
-      std::string defect = id ? unsubscribe(*id) : "a subscription is a number";
+      std::string defect = id ? unsubscribe(*id) : "a subscription must be a number";
       if (problem.empty()) problem = std::move(defect);
     }
   } else if (operation == "act" && acting_ != nullptr) {
     acting_->take(page_, read_page_order(message), now_s);
   } else {
-    problem = operation.empty() ? "a message is a JSON object with an 'op'"
+    problem = operation.empty() ? "a message must be a JSON object with an 'op'"
                                 : "'" + printable(operation.substr(0, kQuoted)) +
-                                      "' is not offered: subscribe and unsubscribe are";
+                                      "' is not supported: subscribe and unsubscribe are";
   }
   return problem.empty() ? std::nullopt : std::optional(refusal(problem));
 }

@@ -77,13 +77,13 @@ void OpeningConnection::answer(const Request& request) {
     response_.set(http::field::vary, "Accept-Encoding");
     return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics(packed));
   }
-  refuse(Status::not_found, "there is / (the page), /metrics (Prometheus) and ws:// (Foxglove)");
+  refuse(Status::not_found, "this server has / (the page), /metrics (Prometheus) and ws:// (Foxglove)");
 }
 
 void OpeningConnection::become_viewer(const Request& request, bool own_page) {
   const auto subprotocol = choose_subprotocol(view(request[http::field::sec_websocket_protocol]));
   if (!subprotocol)
-    return refuse(Status::bad_request, "the subprotocols are foxglove.sdk.v1 and foxglove.websocket.v1");
+    return refuse(Status::bad_request, "the subprotocol must be foxglove.sdk.v1 or foxglove.websocket.v1");
   if (shared_.viewers.size() >= TelemetryServer::kMaxViewers)
     return refuse(Status::service_unavailable, "too many viewers are connected");
   std::make_shared<ViewerConnection>(std::move(stream_), shared_, own_page)->start(request, *subprotocol);

@@ -92,7 +92,7 @@ void ViewerConnection::on_message(const beast::error_code& error) {
     answer =
         viewer_.take({static_cast<const char*>(bytes.data()), bytes.size()}, shared_.topics, steady_now_s());
   } else {
-    answer = status(StatusLevel::kError, "nothing can be published here", "refused");
+    answer = status(StatusLevel::kError, "this server accepts no published messages", "refused");
   }
   incoming_.consume(incoming_.size());
   if (answer) say(std::move(*answer));

@@ -39,7 +39,7 @@ export class Acting {
       make('p', {className: 'row'}, this.enableButton, this.holdButton, this.jogButtons[0], this.jogButtons[1],
         make('label', {}, 'Speed ', this.speed, ' ', this.speedText)),
       this.range);
-    this.locked = make('p', {id: 'orders-locked', textContent: 'This page may only stop. To enable, hold and jog, open the address with a token that strainwave-telemetry printed at its start.'});
+    this.locked = make('p', {id: 'orders-locked', textContent: 'This page can only stop joints. To enable, hold and jog, open the address with a token that strainwave-telemetry printed at its start.'});
     const section = make('section', {id: 'orders'}, this.title, this.locked, this.panel, this.answers);
     section.setAttribute('aria-labelledby', 'orders-title');
     document.querySelector('main').insertBefore(section, document.getElementById('plots-title').parentElement);
@@ -178,7 +178,7 @@ export class Acting {
     if (!joint?.limits) return;
     const {position_min_rad, position_max_rad, speed_limit_rad_s} = joint.limits;
     this.speedText.textContent = `${this.speed_rad_s(joint).toFixed(3)} rad/s`;
-    this.range.textContent = `A jog goes from ${position_min_rad} to ${position_max_rad} rad at ${Number((this.jogShare * speed_limit_rad_s).toPrecision(3))} rad/s at most, `
-      + 'while its button, or Enter on it, is held.';
+    this.range.textContent = `A jog stays between ${position_min_rad} and ${position_max_rad} rad, moves at ${Number((this.jogShare * speed_limit_rad_s).toPrecision(3))} rad/s at most, `
+      + 'and lasts while its button, or Enter on it, is held.';
   }
 }

@@ -183,7 +183,7 @@ async function onControl(message) {
     actingAsked = true;
     const {Acting} = await import('./acting.js').catch((error) => {
       actingAsked = false;
-      complain(`there is no stop on this page, load it again: ${error.message}`);
+      complain(`the stop button of this page is missing, load the page again: ${error.message}`);
       throw error;
     });
     element('only-shows').hidden = true;

@@ -11,7 +11,7 @@ const OP = {schema: 3, channel: 4, message: 5, chunk: 6};
 export function readRecording(name, bytes) {
   const magic = String.fromCharCode(...bytes.subarray(0, 8));
   const samples = magic === MAGIC ? readMcap(bytes) : readCsv(new TextDecoder().decode(bytes));
-  if (samples.size === 0) throw new Error(`${name}: no states in it; a CSV of strainwavectl export, a flight record, or an MCAP of these is expected`);
+  if (samples.size === 0) throw new Error(`${name}: the file has no states; a CSV of strainwavectl export, a flight record, or an MCAP file of one of them is expected`);
   return new Map([...samples].map(([joint, rows]) => [joint, asRecording(rows)]));
 }
 

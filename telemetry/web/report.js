@@ -44,7 +44,7 @@ function copyOf(node) {
 
 function readHtml(name, text) {
   const page = new DOMParser().parseFromString(text, 'text/html');
-  if (!page.title.startsWith('Commissioning of ')) throw new Error(`${name}: no report; the report.html of a commissioning is expected`);
+  if (!page.title.startsWith('Commissioning of ')) throw new Error(`${name}: not a report; the report.html of a commissioning is expected`);
   const scroll = make('div', {className: 'scroll report', tabIndex: 0}, ...[...page.body.childNodes].map(copyOf));
   scroll.setAttribute('role', 'region');
   scroll.setAttribute('aria-label', page.title);
@@ -54,7 +54,7 @@ function readHtml(name, text) {
 /** The report in `text`, a file called `name`, as elements. Throws Error with a text for the user. */
 export function readReport(name, text) {
   if (/\.html$/i.test(name)) return readHtml(name, text);
-  const expected = `${name}: no report; a JSON file of strainwavectl doctor --json or of a commissioning is expected`;
+  const expected = `${name}: not a report; a JSON file of strainwavectl doctor --json or of a commissioning is expected`;
   let report;
   try {
     report = JSON.parse(text);

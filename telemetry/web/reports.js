@@ -44,7 +44,7 @@ export class Reports {
     try {
       keep([report, ...others(text)]);
     } catch {
-      throw new Error(`${name}: shown, but not kept, since this browser's storage is full or off; remove a report, or allow the page to store`);
+      throw new Error(`${name}: shown, but not kept, since this browser's storage is full or off; remove a report, or allow the page to store data`);
     }
   }
 

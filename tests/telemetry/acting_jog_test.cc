@@ -78,11 +78,12 @@ TEST_F(ActingTest, JogsNoFasterThanItsShareOfTheSpeedLimit) {
 TEST_F(ActingTest, JogsNotWithoutTheLimitsOfTheSessionThatThePageSaw) {
   open(kTab);
   take(kTab, jog(1, 0.2, "SW.knee"));
-  EXPECT_EQ(said(kTab)["text"], "SW.knee: jog: refused, its state and limits have not come yet");
+  EXPECT_EQ(said(kTab)["text"], "SW.knee: jog: refused, the joint's state and limits have not come yet");
   Json before_restart = jog(2, 0.2);
   before_restart["session_id"] = "41";
   take(kTab, before_restart);
-  EXPECT_EQ(said(kTab)["text"], "SW.elbow: jog: refused, its limits are of another session");
+  EXPECT_EQ(said(kTab)["text"],
+            "SW.elbow: jog: refused, the joint's limits are of another session of the daemon");
   state_v1 restarted{};
   restarted.session_id = 43;
   fleet_.take({"SW", "elbow", "STATE"}, restarted, 0.0);
@@ -90,7 +91,9 @@ TEST_F(ActingTest, JogsNotWithoutTheLimitsOfTheSessionThatThePageSaw) {
     Json asked = jog(session[1], 0.2);
     asked["session_id"] = session;
     take(kTab, asked);
-    EXPECT_EQ(said(kTab)["text"], "SW.elbow: jog: refused, its limits are of another session") << session;
+    EXPECT_EQ(said(kTab)["text"],
+              "SW.elbow: jog: refused, the joint's limits are of another session of the daemon")
+        << session;
   }
   EXPECT_TRUE(sent_.empty());
 }

@@ -178,7 +178,7 @@ TEST_F(ActingServer, TakesOrdersOfItsOwnPageAlone) {
   for (const char* origin : {"", "Origin: https://app.foxglove.dev\r\n", "Origin: file://\r\n",
                              "Origin: http://localhost\r\n", "Origin: https://evil.example\r\n"}) {
     const std::string answer = stop_by(telemetry, host + origin);
-    EXPECT_TRUE(answer == "no viewer" || answer.find("page of this server alone") != std::string::npos)
+    EXPECT_TRUE(answer == "no viewer" || answer.find("only the page of this server") != std::string::npos)
         << origin << answer;
   }
   hear();
@@ -221,7 +221,7 @@ TEST_F(ActingServer, IsNoneWithoutAKey) {
   const RawClient viewer(telemetry.port());
   ASSERT_TRUE(viewer.become_viewer(own_page(telemetry)));
   viewer.send_text(R"({"op":"act","action":"stop"})");
-  EXPECT_NE(viewer.read_until("refused").find("'act' is not offered"), std::string::npos);
+  EXPECT_NE(viewer.read_until("refused").find("'act' is not supported"), std::string::npos);
   hear();
   EXPECT_EQ(commands_, 0);
 }
