@@ -85,7 +85,7 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
         {"contact.position_rad = 1.5", "from 2 to"});
   names("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0201", {"once_rad = 0.0201"});
   names("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.01",
-        {"twice_rad = 0.01", "turn back", "below 1 of"});
+        {"twice_rad = 0.01", "turn back", "by less than 1"});
   EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.0099"), "accepted");
   EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0099\ntwice_rad = 0.0066"),
             "accepted")
