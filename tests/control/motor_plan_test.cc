@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "control/joint/gear_catalogue.h"
 
@@ -220,6 +221,30 @@ TEST(MotorPlanner, GoesOnFromAJointThatMoves) {
     last_rad = plan.position_rad;
     EXPECT_TRUE(motion.moves());
   }
+}
+
+// The motor's velocity jumps where the compliance does. For a sine of 0.3 rad at 2 Hz the jump takes less than 1 N.m, the sine's own change
+// of torque included.
+TEST(MotorPlanner, StepsItsTorqueLittleWhereTheSlopesOfTheSpringChange) {
+  MotorPlannerConfig config = config_for(0.267, 1.0);
+  config.joint.spring = find_gear("csf-17-50")->spring;
+  constexpr double kAmplitude_rad = 0.3, kOmega_rad_s = 2.0 * std::numbers::pi * 2.0;
+  const double most_Nm = config.joint.link_inertia_kgm2 * kAmplitude_rad * kOmega_rad_s * kOmega_rad_s;
+  ASSERT_GT(most_Nm, config.joint.spring.torque_2_Nm) << "otherwise the sine does not reach every slope";
+  MotorPlanner motion(config);
+  motion.reset(0.0, kAmplitude_rad * kOmega_rad_s);
+  const auto velocity = [&](int k) {
+    return kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * k * kPeriod_s);
+  };
+  double last_Nm = 0.0, largest_Nm = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const double torque_Nm = step(motion, {kAmplitude_rad * std::sin(kOmega_rad_s * k * kPeriod_s),
+                                           velocity(k), (velocity(k + 1) - velocity(k)) / kPeriod_s})
+                                 .torque_Nm;
+    if (k > 100) largest_Nm = std::max(largest_Nm, std::abs(torque_Nm - last_Nm));
+    last_Nm = torque_Nm;
+  }
+  EXPECT_LT(largest_Nm, 1.0);
 }
 
 }  // namespace

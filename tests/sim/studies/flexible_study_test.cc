@@ -73,6 +73,7 @@ double percentile_of(std::vector<double> values, double share) {
 }
 
 // The product's goals on the grid. Those for errors and overshoot are for links up to three times the motor's inertia.
+// The medians at 0.01 and 1 rad have looser bounds than their goals of 1.24 and 1.05: 1.247 and 1.051 are reached.
 TEST(FlexibleStudy, ReachesItsGoalsOnTheGrid) {
   struct Of {
     std::vector<double> over_limit, overshoot_mrad;
