@@ -92,8 +92,7 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     if (repeats(message, requester)) return repeat(requester);
     return refuse(requester, Reason::kTooOld,
                   "the command quotes a challenge that left the STATE channel more than about a second ago: "
-                  "the network "
-                  "delayed the command, or its sender used an old state; send it again");
+                  "the network delayed the command, or its sender used an old state; send it again");
   }
   const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
   switch (challenges_.since(challenge, requester.joint, order)) {

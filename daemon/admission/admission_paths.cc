@@ -44,7 +44,8 @@ Verdict Admission::judge_path(std::size_t joint, const WireMessage& message) {
           check_envelope(message, {path->session_id, path->challenge, Role::kOperator, true}, requester))
     return std::move(*verdict);
   std::ostringstream text;
-  if (path->path_id == 0) return refuse(requester, Reason::kOutOfRange, "path_id = 0: 0 is not allowed");
+  if (path->path_id == 0)
+    return refuse(requester, Reason::kOutOfRange, "path_id = 0: any other number is allowed");
   if (path->joint_count < 1 || static_cast<std::size_t>(path->joint_count) > joints_.size()) {
     text << "joint_count = " << path->joint_count << ": from 1 to " << joints_.size()
          << " (the joints of this daemon) is allowed";

@@ -136,8 +136,7 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
     case Reason::kVelocitiesContradict:
       return mode +
              ": velocity_rad_s is not the rate at which position_rad changes, and the daemon ended the "
-             "stream; "
-             "send rad/s at the joint, or positions alone (derivatives 0)";
+             "stream; send rad/s at the joint, or positions alone (derivatives 0)";
     case Reason::kNotHomed:
       return mode + ", and its position is not known: home it first";
     case Reason::kAtLimitSwitch:

@@ -40,8 +40,8 @@ LoopConfig read_loop(TomlSection& section) {
   loop.priority = static_cast<int>(section.integer_or("priority", loop.priority, 1, 98));
   loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, last_processor()));
   OverrunLimits& overruns = loop.overruns;
-  overruns.stall_s = section.number_or("stall_limit_s", std::max(overruns.stall_s, 2.0 * loop.period_s),
-                                       {2.0 * loop.period_s, 1e6});
+  const double usual_stall_s = std::max(overruns.stall_s, 2.0 * loop.period_s);
+  overruns.stall_s = section.number_or("stall_limit_s", usual_stall_s, {2.0 * loop.period_s, 1e6});
   overruns.missed_share = section.number_or("missed_share_limit", overruns.missed_share, {0.0, 1.0});
   if (overruns.missed_share >= kShareOfLateLoop && overruns.missed_share < 1.0)
     section.fail(
@@ -49,7 +49,7 @@ LoopConfig read_loop(TomlSection& section) {
         "below 0.5, or 1 for no supervision, is allowed: a loop that is late in every cycle misses half "
         "of its periods");
   loop.state_rate_Hz = section.number_or("state_rate_Hz", loop.state_rate_Hz, {0.1, 1.0 / loop.period_s});
-  doubt_loop(section, loop);
+  doubt_loop(section, loop, usual_stall_s);
   return loop;
 }
 

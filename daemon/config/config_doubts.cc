@@ -181,14 +181,13 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
         key, "every user can write there, and could leave a false record: name a folder of the daemon's own");
 }
 
-void doubt_loop(const TomlSection& section, const LoopConfig& loop) {
+void doubt_loop(const TomlSection& section, const LoopConfig& loop, double usual_stall_s) {
   const OverrunLimits defaults;
   const auto off = [&](const char* key, bool doubtful, const std::string& what, double usual) {
     if (section.has(key) && doubtful) section.warn(key, what + "; the default is " + number_text(usual));
   };
   off("stall_limit_s", loop.overruns.stall_s > kLongAbsence_s,
-      "a joint may be without control for this long before that is a fault",
-      std::max(defaults.stall_s, 2.0 * loop.period_s));
+      "a joint may be without control for this long before that is a fault", usual_stall_s);
   off("missed_share_limit", loop.overruns.missed_share >= 1.0,
       "missed periods are never a fault: the supervision is off", defaults.missed_share);
 }

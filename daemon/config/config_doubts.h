@@ -35,8 +35,8 @@ void doubt_inertia(const TomlSection& section, const JointConfig& joint);
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 
-/// Checks [daemon], already read into `loop`.
-void doubt_loop(const TomlSection& section, const LoopConfig& loop);
+/// Checks [daemon], already read into `loop`. `usual_stall_s`: the default of stall_limit_s.
+void doubt_loop(const TomlSection& section, const LoopConfig& loop, double usual_stall_s);
 
 /// Checks the folder that `key` names, which the daemon creates at the first write. Warns if this user cannot create it or write into
 /// it, or if other users can write into it.

@@ -134,7 +134,7 @@ double worth(const AblationRow& without, const AblationRow& complete) noexcept {
   const std::vector<double> before = figures(complete);
   const std::vector<double> after = figures(without);
   double most = 0.0;
-  // No lost cell has no growth in per cent; another figure grows with the cells that are lost.
+  // A count of lost cells that was 0 has no growth in per cent.
   for (std::size_t i = 0; i < before.size(); ++i)
     if (before[i] > 0.0) most = std::max(most, after[i] / before[i] - 1.0);
   return most;
